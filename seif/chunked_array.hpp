@@ -1,0 +1,42 @@
+// An array that grows without ever moving what it holds: adding an element costs the same at any size,
+// where a std::vector now and then copies everything.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace seif {
+
+template <class T>
+class ChunkedArray {
+ public:
+  std::size_t size() const { return size_; }
+
+  T& operator[](std::size_t i) {
+    assert(i < size_);
+    return chunks_[i / chunk_size][i % chunk_size];
+  }
+  const T& operator[](std::size_t i) const {
+    assert(i < size_);
+    return chunks_[i / chunk_size][i % chunk_size];
+  }
+
+  void push_back(const T& value) {
+    if (size_ == chunks_.size() * chunk_size) chunks_.push_back(std::make_unique<T[]>(chunk_size));
+    ++size_;
+    (*this)[size_ - 1] = value;
+  }
+
+  std::size_t memory_bytes() const {
+    return chunks_.size() * chunk_size * sizeof(T) + chunks_.capacity() * sizeof(chunks_[0]);
+  }
+
+ private:
+  static constexpr std::size_t chunk_size = 1024;
+  std::vector<std::unique_ptr<T[]>> chunks_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace seif

@@ -1,0 +1,189 @@
+#include "seif/ekf.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "seif/models.hpp"
+
+namespace seif {
+
+Ekf::Ekf(const EstimatorSetup& setup) : T_robot_sensor_(setup.T_robot_sensor) {
+  if (setup.start.covariance.llt().info() != Eigen::Success) {
+    throw std::invalid_argument("the covariance of the start estimate is not positive definite");
+  }
+  reserve(64);
+  set_pose(setup.start.mean);
+  Sigma_.topLeftCorner<3, 3>() = setup.start.covariance;
+}
+
+Pose2 Ekf::pose() const { return {mu_(0), mu_(1), mu_(2)}; }
+
+void Ekf::set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }
+
+void Ekf::motion_update(const Odometry& odometry) {
+  const PredictedPose predicted = predict_pose(pose(), odometry);
+  const Eigen::Matrix3d& F = predicted.J_wrt_pose;
+  const Eigen::Matrix3d Sigma_xx = Sigma_.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
+  Sigma_.topLeftCorner<3, 3>() =
+      F * Sigma_xx * F.transpose() + predicted.noise_factor * predicted.noise_factor.transpose();
+  auto Sigma_mx = Sigma_.block(3, 0, size() - 3, 3);
+  Sigma_mx.col(0) += F(0, 2) * Sigma_mx.col(2);  // F differs from the identity in two entries
+  Sigma_mx.col(1) += F(1, 2) * Sigma_mx.col(2);
+  set_pose(predicted.pose);
+  blocks_touched_ += landmark_count() + 1;
+}
+
+void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
+  pending_.clear();
+  for (const Observation& observation : scan.observations) pending_.push_back(&observation);
+  while (!pending_.empty()) {  // once more only if a new landmark was seen twice
+    known_.clear();
+    unknown_.clear();
+    std::size_t again = 0;
+    for (const Observation* observation : pending_) {
+      if (const auto slot = index_.find(observation->landmark)) {
+        const int row = row_of(*slot);
+        const PredictedObservation predicted =
+            predict_observation(pose(), T_robot_sensor_, mu_.segment<2>(row));
+        Linearised linearised{
+            .row = row, .v = innovation(*observation, predicted.z), .J = {}, .Q = observation->covariance};
+        linearised.J << predicted.J_wrt_pose, predicted.J_wrt_landmark;
+        known_.push_back(linearised);
+      } else if (std::ranges::find(unknown_, observation->landmark, &Observation::landmark) ==
+                 unknown_.end()) {
+        unknown_.push_back(observation);
+      } else {
+        pending_[again++] = observation;
+      }
+    }
+    pending_.resize(again);
+    if (!known_.empty() && !update_known()) throw NumericalFailure("measurement update", scan.t);
+    for (const Observation* observation : unknown_) add_landmark(*observation);
+  }
+  done(Stage::measurement);
+}
+
+/// Copies the full columns [row, row + Width) of Sigma to columns_ from column `to`; what lies above the
+/// diagonal stands in the rows.
+template <int Width>
+void Ekf::gather_columns(int row, int to) {
+  const int below = row + Width;
+  auto column = columns_.middleCols<Width>(to);
+  column.topRows(row) = Sigma_.block(row, 0, Width, row).transpose();
+  column.template middleRows<Width>(row) =
+      Sigma_.block<Width, Width>(row, row).template selfadjointView<Eigen::Lower>();
+  column.middleRows(below, size() - below) = Sigma_.block(below, row, size() - below, Width);
+}
+
+/// One Kalman update with all observations in known_. With W = Sigma C and S = C' W + Q = L L':
+/// mu += (W L^-T) L^-1 v, Sigma -= (W L^-T)(W L^-T)'. False if S is not positive definite.
+bool Ekf::update_known() {
+  const auto k = static_cast<int>(known_.size());
+  const int n = size();
+  if (W_.rows() < n || W_.cols() < 2 * k) W_.resize(Sigma_.rows(), std::max<Eigen::Index>(2 * k, W_.cols()));
+  auto W = W_.topLeftCorner(n, 2 * k);
+  v_.resize(2 * k);
+  gather_columns<3>(0, 0);
+  for (int i = 0; i < k; ++i) {
+    const Linearised& known = known_[static_cast<std::size_t>(i)];
+    gather_columns<2>(known.row, 3);
+    W.middleCols<2>(2 * i).noalias() = columns_.topRows(n) * known.J.transpose();
+    v_.segment<2>(2 * i) = known.v;
+  }
+  S_.resize(2 * k, 2 * k);
+  for (int i = 0; i < k; ++i) {
+    const Linearised& known = known_[static_cast<std::size_t>(i)];
+    S_.middleRows<2>(2 * i).noalias() =
+        known.J.leftCols<3>() * W.topRows<3>() + known.J.rightCols<2>() * W.middleRows<2>(known.row);
+    S_.block<2, 2>(2 * i, 2 * i) += known.Q;
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(S_);
+  if (llt.info() != Eigen::Success) return false;
+  llt.matrixU().solveInPlace<Eigen::OnTheRight>(W);
+  llt.matrixL().solveInPlace(v_);
+  mu_.head(n).noalias() += W * v_;
+  mu_(2) = wrap_angle(mu_(2));
+  Sigma_.topLeftCorner(n, n).selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+  blocks_touched_ += std::int64_t{landmark_count() + 1} * (landmark_count() + 2) / 2;
+  return true;
+}
+
+/// Sigma grows by G Sigma_x., with G the Jacobian of the inverse observation.
+void Ekf::add_landmark(const Observation& observation) {
+  const InverseObservation inverse = invert_observation(pose(), T_robot_sensor_, observation);
+  const int row = size();
+  const int slot = landmark_count();
+  reserve(slot + 1);
+  gather_columns<3>(0, 0);
+  Sigma_.block(row, 0, 2, row).noalias() =
+      inverse.J_wrt_pose * columns_.topRows(row).leftCols<3>().transpose();
+  Sigma_.block<2, 2>(row, row) =
+      inverse.J_wrt_pose * columns_.topLeftCorner<3, 3>() * inverse.J_wrt_pose.transpose() +
+      inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
+  mu_.segment<2>(row) = inverse.p_world_landmark;
+  ids_.push_back(observation.landmark);
+  index_.insert(observation.landmark, slot);
+  blocks_touched_ += slot + 2;
+}
+
+void Ekf::reserve(int landmarks) {
+  if (row_of(landmarks) <= mu_.size()) return;
+  const int room = std::max(landmarks, landmark_count() + landmark_count() / 2);
+  const int rows = (row_of(room) + 7) / 8 * 8;  // whole cache lines
+  mu_.conservativeResize(rows);
+  Sigma_.conservativeResize(rows, rows);
+  columns_.resize(rows, 5);
+}
+
+Counts Ekf::counts() const {
+  const std::int64_t n = landmark_count();
+  return {.blocks_touched = blocks_touched_, .active_landmarks = landmark_count(), .links = n * (n + 1) / 2};
+}
+
+std::optional<Eigen::Matrix3d> Ekf::pose_covariance() const {
+  return Eigen::Matrix3d(Sigma_.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>());
+}
+
+std::size_t Ekf::memory_bytes() const {
+  const auto doubles = mu_.size() + Sigma_.size() + columns_.size() + W_.size() + S_.size() + v_.size();
+  return static_cast<std::size_t>(doubles) * sizeof(double) + ids_.capacity() * sizeof(LandmarkId) +
+         index_.memory_bytes();
+}
+
+std::vector<LandmarkEstimate> Ekf::map() const {
+  std::vector<LandmarkEstimate> map;
+  map.reserve(ids_.size());
+  for (int slot = 0; slot < landmark_count(); ++slot) {
+    map.push_back({ids_[static_cast<std::size_t>(slot)], mu_.segment<2>(row_of(slot))});
+  }
+  return map;
+}
+
+std::optional<MarginalCovariances> Ekf::marginal_covariances(std::span<const LandmarkId> landmarks) const {
+  MarginalCovariances marginals;
+  marginals.pose = *pose_covariance();
+  marginals.landmarks.reserve(landmarks.size());
+  for (const LandmarkId landmark : landmarks) {
+    const int row = row_of(index_.find(landmark).value());
+    marginals.landmarks.emplace_back(Sigma_.block<2, 2>(row, row).selfadjointView<Eigen::Lower>());
+  }
+  return marginals;
+}
+
+Eigen::MatrixXd Ekf::Sigma() const {
+  return Sigma_.topLeftCorner(size(), size()).selfadjointView<Eigen::Lower>();
+}
+
+EstimatorType ekf_type() {
+  return {
+      .name = "ekf",
+      .help = "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline.",
+      .options = {},
+      .make = [](const EstimatorSetup& setup, const Options&) -> std::unique_ptr<Estimator> {
+        return std::make_unique<Ekf>(setup);
+      }};
+}
+
+}  // namespace seif

@@ -1,0 +1,71 @@
+// The dense EKF: the baseline, as strong as we can write it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "seif/estimator.hpp"
+#include "seif/landmark_index.hpp"
+#include "seif/registry.hpp"
+
+namespace seif {
+
+/// Covariance form; all known landmarks of a scan in one update, on the lower triangle alone. O(N^2) for each
+/// update.
+class Ekf final : public Estimator {
+ public:
+  /// Throws std::invalid_argument if the start covariance is not positive definite.
+  explicit Ekf(const EstimatorSetup& setup);
+
+  void motion_update(const Odometry& odometry) override;
+  void measurement_update(const Scan& scan, const StageDone& done) override;
+  Pose2 pose() const override;
+  std::optional<Eigen::Matrix3d> pose_covariance() const override;
+  Counts counts() const override;
+  std::size_t memory_bytes() const override;
+  std::vector<LandmarkEstimate> map() const override;
+  std::optional<MarginalCovariances> marginal_covariances(
+      std::span<const LandmarkId> landmarks) const override;
+
+  /// The whole belief, for oracles: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
+  Eigen::VectorXd mu() const { return mu_.head(size()); }
+  Eigen::MatrixXd Sigma() const;
+
+ private:
+  /// An observation of a landmark in the map, linearised.
+  struct Linearised {
+    int row = 0;                    // of the landmark in the state
+    Eigen::Vector2d v;              // innovation
+    Eigen::Matrix<double, 2, 5> J;  // wrt [x y theta m_x m_y]
+    Eigen::Matrix2d Q;              // noise
+  };
+
+  int landmark_count() const { return static_cast<int>(ids_.size()); }
+  int size() const { return 3 + 2 * landmark_count(); }
+  static int row_of(int slot) { return 3 + 2 * slot; }
+  void set_pose(const Pose2& pose);
+  template <int Width>
+  void gather_columns(int row, int to);
+  [[nodiscard]] bool update_known();
+  void add_landmark(const Observation& observation);
+  void reserve(int landmarks);
+
+  Eigen::VectorXd mu_;                                // with room to grow
+  Eigen::MatrixXd Sigma_;                             // lower triangle, with room to grow
+  Eigen::Matrix<double, Eigen::Dynamic, 5> columns_;  // scratch: the columns of Sigma for [x y theta m_x m_y]
+  Eigen::MatrixXd W_;                                 // scratch (3+2N x 2k)
+  Eigen::MatrixXd S_;                                 // scratch (2k x 2k)
+  Eigen::VectorXd v_;                                 // scratch (2k x 1)
+  std::vector<Linearised> known_;
+  std::vector<const Observation*> pending_;
+  std::vector<const Observation*> unknown_;
+  std::vector<LandmarkId> ids_;  // by slot
+  LandmarkIndex index_;
+  Pose2 T_robot_sensor_;
+  std::int64_t blocks_touched_ = 0;
+};
+
+/// The registered type `ekf`.
+EstimatorType ekf_type();
+
+}  // namespace seif

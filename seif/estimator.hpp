@@ -1,0 +1,93 @@
+// The interface that the harness drives: what a user's own filter implements.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "seif/types.hpp"
+
+namespace seif {
+
+/// The parts of an update that are timed apart. A filter that lacks one never reports it.
+enum class Stage { motion, measurement, sparsification, mean_recovery };
+
+/// Called by a filter when a stage of its update has ended. The caller may read a clock; the filter does not.
+using StageDone = std::function<void(Stage)>;
+
+/// What an estimator is born with.
+struct EstimatorSetup {
+  PoseEstimate start;      // drawn from N(truth, P0); the covariance is positive definite
+  Pose2 T_robot_sensor;    // where the landmark sensor sits
+  std::mt19937_64 random;  // the filter's own stream, for those that draw
+};
+
+/// The work that a filter has done since it was made, and what it holds now.
+struct Counts {
+  std::int64_t blocks_touched = 0;  // [-] blocks of the state read or written, summed over all updates
+  int active_landmarks = 0;         // [-] landmarks with a link to the robot
+  std::int64_t links = 0;           // [-] the report's count: robot's links + landmark pairs
+};
+
+/// A landmark of the map.
+struct LandmarkEstimate {
+  LandmarkId landmark = no_landmark;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // p_world_landmark [m]
+};
+
+/// Marginal covariances: of the pose, and of each landmark that was asked for, in that order.
+struct MarginalCovariances {
+  Eigen::Matrix3d pose = Eigen::Matrix3d::Zero();  // (3 x 3) [m, rad]
+  std::vector<Eigen::Matrix2d> landmarks;          // (2 x 2) each [m^2]
+};
+
+/// Thrown by a filter whose belief is no longer a proper Gaussian: it has diverged or lost its precision.
+class NumericalFailure : public std::runtime_error {
+ public:
+  NumericalFailure(const std::string& stage, double t)
+      : std::runtime_error(stage + " at t = " + std::to_string(t) + " s: a matrix is not positive definite") {
+  }
+};
+
+/// A SLAM filter with known correspondence, driven with one stream of odometry and scans in the order of
+/// time.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// The live path. An update is every motion_update since the last scan, and then one measurement_update.
+  virtual void motion_update(const Odometry& odometry) = 0;
+
+  /// Takes in a scan, and does all that follows (sparsification, mean recovery). A scan may be empty.
+  /// Landmarks never seen before join the map. Calls `done` after each stage. May throw NumericalFailure.
+  virtual void measurement_update(const Scan& scan, const StageDone& done) = 0;
+
+  /// T_world_robot as now believed.
+  virtual Pose2 pose() const = 0;
+
+  /// The covariance of the pose where the filter has it at hand, in constant time; otherwise nothing.
+  virtual std::optional<Eigen::Matrix3d> pose_covariance() const { return std::nullopt; }
+
+  virtual Counts counts() const = 0;
+
+  /// What the filter's state occupies. [byte]
+  virtual std::size_t memory_bytes() const = 0;
+
+  /// Off the live path, at any cost: the whole map, in the order in which the landmarks joined it.
+  virtual std::vector<LandmarkEstimate> map() const = 0;
+
+  /// Off the live path, at any cost: marginals of the filter's own belief. Nothing if that is not a proper
+  /// Gaussian (an information matrix that is not positive definite), or if the filter has none.
+  /// Each of `landmarks` must be in the map.
+  virtual std::optional<MarginalCovariances> marginal_covariances(
+      std::span<const LandmarkId> landmarks) const = 0;
+};
+
+}  // namespace seif

@@ -1,0 +1,276 @@
+#include "seif/information_state.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+#include <utility>
+
+namespace seif {
+
+InformationState::InformationState(const PoseEstimate& start) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(start.covariance);
+  if (llt.info() != Eigen::Success) {
+    throw std::invalid_argument("the covariance of the start estimate is not positive definite");
+  }
+  reserve_window(8);
+  Omega_.topLeftCorner<3, 3>() = llt.solve(Eigen::Matrix3d::Identity());
+  set_pose(start.mean);
+}
+
+void InformationState::set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }
+
+Eigen::Vector2d InformationState::mean(int slot) const {
+  const Landmark& landmark = landmarks_[index(slot)];
+  if (landmark.position == none) return landmark.mu;
+  return mu_.segment<2>(row_of(landmark.position));
+}
+
+Eigen::Vector2d InformationState::residual(int slot) const {
+  const Landmark& landmark = landmarks_[index(slot)];
+  if (landmark.position == none) return landmark.r;
+  return r_.segment<2>(row_of(landmark.position));
+}
+
+Eigen::Matrix2d InformationState::information(int slot) const {
+  const Landmark& landmark = landmarks_[index(slot)];
+  if (landmark.position == none) return landmark.Omega_ii;
+  const int row = row_of(landmark.position);
+  return Omega_.block<2, 2>(row, row);
+}
+
+int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean) {
+  const int slot = landmark_count();
+  index_.insert(landmark, slot);
+  landmarks_.push_back({.id = landmark, .mu = mean});
+  return slot;
+}
+
+/// Calls visit(link, end, other) for each link of a landmark: end is which end of the link it is, other the
+/// slot at the far end.
+template <class Visit>
+void InformationState::for_each_link(int slot, Visit&& visit) const {
+  for (int link = landmarks_[index(slot)].first_link; link != none;) {
+    const Link& l = links_[index(link)];
+    const int end = l.end[0] == slot ? 0 : 1;
+    const int next = l.next[end];
+    visit(link, end, l.end[1 - end]);
+    link = next;
+  }
+}
+
+int InformationState::add_link(int slot_i, int slot_j, const Block& Omega_ij) {
+  const int link = static_cast<int>(links_.size());
+  Landmark& i = landmarks_[index(slot_i)];
+  Landmark& j = landmarks_[index(slot_j)];
+  links_.push_back({.end = {slot_i, slot_j}, .next = {i.first_link, j.first_link}, .Omega_ij = Omega_ij});
+  i.first_link = link;
+  j.first_link = link;
+  return link;
+}
+
+void InformationState::set_link(int link, int slot_i, const Block& Omega_ij) {
+  Link& l = links_[index(link)];
+  if (l.end[0] == slot_i) {
+    l.Omega_ij = Omega_ij;
+  } else {
+    l.Omega_ij = Omega_ij.transpose();
+  }
+}
+
+int InformationState::activate(int slot) {
+  assert(position(slot) == none);
+  const int position = active_count();
+  reserve_window(position + 1);
+  active_.push_back(slot);
+  load_into_window(slot, position);
+  landmarks_[index(slot)].position = position;
+  return position;
+}
+
+void InformationState::load_into_window(int slot, int position) {
+  const Landmark& landmark = landmarks_[index(slot)];
+  const int row = row_of(position);
+  Omega_.middleRows<2>(row).leftCols(row + 2).setZero();
+  Omega_.middleCols<2>(row).topRows(row + 2).setZero();
+  Omega_.block<2, 2>(row, row) = landmark.Omega_ii;
+  mu_.segment<2>(row) = landmark.mu;
+  r_.segment<2>(row) = landmark.r;
+  link_of_.row(position).head(position + 1).setConstant(none);
+  link_of_.col(position).head(position + 1).setConstant(none);
+  for_each_link(slot, [&](int link, int end, int other) {
+    const int other_position = landmarks_[index(other)].position;
+    if (other_position == none) return;
+    const int other_row = row_of(other_position);
+    const Block& stored = links_[index(link)].Omega_ij;
+    const Block Omega_so = end == 0 ? stored : Block(stored.transpose());
+    Omega_.block<2, 2>(row, other_row) = Omega_so;
+    Omega_.block<2, 2>(other_row, row) = Omega_so.transpose();
+    link_of_(position, other_position) = link_of_(other_position, position) = link;
+    touch(1);
+  });
+  touch(1);
+}
+
+void InformationState::deactivate(int position) {
+  const int slot = active(position);
+  assert(Omega_.block(0, row_of(position), 3, 2).isZero(0.0));
+  store_from_window(position);
+  landmarks_[index(slot)].position = none;
+  const int last = active_count() - 1;
+  if (position != last) move_within_window(last, position);
+  active_.pop_back();
+}
+
+void InformationState::store_from_window(int position) {
+  const int slot = active(position);
+  const int row = row_of(position);
+  Landmark& landmark = landmarks_[index(slot)];
+  landmark.mu = mu_.segment<2>(row);
+  landmark.r = r_.segment<2>(row);
+  landmark.Omega_ii = Omega_.block<2, 2>(row, row);
+  for (int other = 0; other < active_count(); ++other) {
+    if (other == position) continue;
+    const Block Omega_so = Omega_.block<2, 2>(row, row_of(other));
+    if (const int link = link_of_(position, other); link != none) {
+      set_link(link, slot, Omega_so);
+    } else if (!Omega_so.isZero(0.0)) {
+      add_link(slot, active(other), Omega_so);
+    }
+  }
+  touch(active_count());
+}
+
+void InformationState::move_within_window(int from, int to) {
+  const int size = window_size();
+  const int from_row = row_of(from);
+  const int to_row = row_of(to);
+  Omega_.middleRows<2>(to_row).leftCols(size) = Omega_.middleRows<2>(from_row).leftCols(size);
+  Omega_.middleCols<2>(to_row).topRows(size) = Omega_.middleCols<2>(from_row).topRows(size);
+  Omega_.block<2, 2>(to_row, to_row) = Omega_.block<2, 2>(from_row, from_row);
+  mu_.segment<2>(to_row) = mu_.segment<2>(from_row);
+  r_.segment<2>(to_row) = r_.segment<2>(from_row);
+  link_of_.row(to).head(active_count()) = link_of_.row(from).head(active_count());
+  link_of_.col(to).head(active_count()) = link_of_.col(from).head(active_count());
+  link_of_(to, to) = none;
+  active_[index(to)] = active_[index(from)];
+  landmarks_[index(active(to))].position = to;
+}
+
+void InformationState::reserve_window(int active_landmarks) {
+  const int room = static_cast<int>(link_of_.rows());
+  if (active_landmarks <= room) return;
+  const int new_room = std::max(active_landmarks, 2 * room);
+  const int rows = row_of(new_room);
+  Omega_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
+  work_.resize(rows, rows);
+  work_columns_.resize(rows, 3);
+  mu_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
+  r_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
+  link_of_.conservativeResizeLike(Eigen::MatrixXi::Constant(new_room, new_room, none));
+  active_.reserve(index(new_room));
+}
+
+void InformationState::move_robot(const Eigen::Vector3d& d) {
+  mu_.head<3>() += d;
+  mu_(2) = wrap_angle(mu_(2));
+  r().noalias() -= Omega().leftCols<3>() * d;
+  touch(active_count() + 1);
+}
+
+void InformationState::move_landmark(int slot, const Eigen::Vector2d& d) {
+  Landmark& landmark = landmarks_[index(slot)];
+  if (landmark.position != none) {
+    const int row = row_of(landmark.position);
+    mu_.segment<2>(row) += d;
+    r().noalias() -= Omega().middleCols<2>(row) * d;
+    touch(active_count() + 1);
+  } else {
+    landmark.mu += d;
+    landmark.r -= landmark.Omega_ii * d;
+    touch(1);
+  }
+  for_each_link(slot, [&](int link, int end, int other) {
+    Landmark& neighbour = landmarks_[index(other)];
+    if (landmark.position != none && neighbour.position != none) return;  // its block is the window's
+    const Block& Omega_ij = links_[index(link)].Omega_ij;
+    const Eigen::Vector2d dr =
+        end == 0 ? Eigen::Vector2d(Omega_ij.transpose() * d) : Eigen::Vector2d(Omega_ij * d);
+    if (neighbour.position == none) {
+      neighbour.r -= dr;
+    } else {
+      r_.segment<2>(row_of(neighbour.position)) -= dr;
+    }
+    touch(1);
+  });
+}
+
+std::int64_t InformationState::link_count() const {
+  std::int64_t links = active_count() + static_cast<std::int64_t>(links_.size());
+  for (int i = 0; i < active_count(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (link_of_(i, j) == none && !Omega_.block<2, 2>(row_of(i), row_of(j)).isZero(0.0)) ++links;
+    }
+  }
+  return links;
+}
+
+std::size_t InformationState::memory_bytes() const {
+  return landmarks_.memory_bytes() + links_.memory_bytes() + index_.memory_bytes() +
+         sizeof(double) * static_cast<std::size_t>(2 * Omega_.size() + 2 * mu_.size() + 3 * mu_.size()) +
+         sizeof(int) * (static_cast<std::size_t>(link_of_.size()) + active_.capacity());
+}
+
+Eigen::SparseMatrix<double> InformationState::full_Omega() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add_block = [&](int row, int col, const auto& block) {
+    for (int i = 0; i < block.rows(); ++i) {
+      for (int j = 0; j < block.cols(); ++j) {
+        if (row + i >= col + j) entries.emplace_back(row + i, col + j, block(i, j));
+      }
+    }
+  };
+  add_block(0, 0, Omega_.topLeftCorner<3, 3>());
+  for (int slot = 0; slot < landmark_count(); ++slot) {
+    add_block(row_of(slot), row_of(slot), information(slot));
+  }
+  for (int p = 0; p < active_count(); ++p) {
+    const int slot = active(p);
+    add_block(row_of(slot), 0, Omega_.block<2, 3>(row_of(p), 0));
+    for (int q = 0; q < active_count(); ++q) {
+      if (active(q) < slot)
+        add_block(row_of(slot), row_of(active(q)), Omega_.block<2, 2>(row_of(p), row_of(q)));
+    }
+  }
+  for (std::size_t k = 0; k < links_.size(); ++k) {
+    const auto [i, j] = links_[k].end;
+    if (position(i) != none && position(j) != none) continue;  // its block is the window's
+    const Block& Omega_ij = links_[k].Omega_ij;
+    add_block(row_of(std::max(i, j)), row_of(std::min(i, j)), i > j ? Omega_ij : Block(Omega_ij.transpose()));
+  }
+  const int size = row_of(landmark_count());
+  Eigen::SparseMatrix<double> Omega(size, size);
+  Omega.setFromTriplets(entries.begin(), entries.end());
+  return Omega;
+}
+
+Eigen::VectorXd InformationState::full_mu() const {
+  Eigen::VectorXd mu(row_of(landmark_count()));
+  mu.head<3>() = mu_.head<3>();
+  for (int slot = 0; slot < landmark_count(); ++slot) mu.segment<2>(row_of(slot)) = mean(slot);
+  return mu;
+}
+
+Eigen::VectorXd InformationState::full_r() const {
+  Eigen::VectorXd r(row_of(landmark_count()));
+  r.head<3>() = r_.head<3>();
+  for (int slot = 0; slot < landmark_count(); ++slot) r.segment<2>(row_of(slot)) = residual(slot);
+  return r;
+}
+
+void InformationState::move_all(const Eigen::VectorXd& d) {
+  move_robot(d.head<3>());
+  for (int slot = 0; slot < landmark_count(); ++slot) move_landmark(slot, d.segment<2>(row_of(slot)));
+}
+
+}  // namespace seif

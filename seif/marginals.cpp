@@ -1,0 +1,100 @@
+#include "seif/marginals.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace seif {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
+/// column j:
+///   Z_ij = -sum_k Z_ik L_kj / L_jj,   Z_jj = 1 / L_jj^2 - sum_k Z_kj L_kj / L_jj.
+/// Every Z_ik that is asked for lies on the pattern, since elimination of j links its rows pairwise.
+void invert_on_pattern(Sparse& L) {
+  const int n = static_cast<int>(L.cols());
+  const int* starts = L.outerIndexPtr();
+  const int* rows = L.innerIndexPtr();
+  double* values = L.valuePtr();
+  Eigen::VectorXi place = Eigen::VectorXi::Constant(n, -1);  // of a row in the column at work
+  std::vector<double> column;                                // L_kj / L_jj
+  std::vector<double> sums;                                  // sum_k Z_ik L_kj / L_jj
+  for (int j = n - 1; j >= 0; --j) {
+    const int first = starts[j] + 1;  // the diagonal comes first
+    const int count = starts[j + 1] - first;
+    const double pivot = values[starts[j]];
+    column.assign(values + first, values + first + count);
+    for (double& l : column) l /= pivot;
+    sums.assign(static_cast<std::size_t>(count), 0.0);
+    for (int a = 0; a < count; ++a) place(rows[first + a]) = a;
+    for (int a = 0; a < count; ++a) {
+      const int k = rows[first + a];
+      for (int e = starts[k]; e < starts[k + 1]; ++e) {
+        const int b = place(rows[e]);
+        if (b < 0) continue;
+        sums[static_cast<std::size_t>(b)] += values[e] * column[static_cast<std::size_t>(a)];
+        if (b != a) sums[static_cast<std::size_t>(a)] += values[e] * column[static_cast<std::size_t>(b)];
+      }
+    }
+    double diagonal = 1.0 / (pivot * pivot);
+    for (int a = 0; a < count; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      values[first + a] = -sums[i];
+      diagonal += sums[i] * column[i];
+      place(rows[first + a]) = -1;
+    }
+    values[starts[j]] = diagonal;
+  }
+}
+
+}  // namespace
+
+std::optional<DiagonalBlocksOfInverse> DiagonalBlocksOfInverse::of(const Sparse& A) {
+  const Eigen::SimplicialLLT<Sparse, Eigen::Lower> llt(A);
+  if (llt.info() != Eigen::Success) return std::nullopt;
+  DiagonalBlocksOfInverse inverse;
+  inverse.permuted_ = llt.permutationP().indices();
+  inverse.Z_ = llt.matrixL();
+  invert_on_pattern(inverse.Z_);
+  return inverse;
+}
+
+double DiagonalBlocksOfInverse::operator()(int i, int j) const {
+  const auto [low, high] = std::minmax(permuted_(i), permuted_(j));
+  const int* rows = Z_.innerIndexPtr();
+  const int* begin = rows + Z_.outerIndexPtr()[low];
+  const int* end = rows + Z_.outerIndexPtr()[low + 1];
+  const int* found = std::lower_bound(begin, end, high);
+  assert(found != end && *found == high);
+  return Z_.valuePtr()[found - rows];
+}
+
+std::vector<LandmarkEstimate> map_of(const InformationState& state) {
+  std::vector<LandmarkEstimate> map;
+  map.reserve(static_cast<std::size_t>(state.landmark_count()));
+  for (int slot = 0; slot < state.landmark_count(); ++slot) map.push_back({state.id(slot), state.mean(slot)});
+  return map;
+}
+
+std::optional<MarginalCovariances> marginals_of(const InformationState& state,
+                                                std::span<const LandmarkId> landmarks) {
+  const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(state.full_Omega());
+  if (!Sigma) return std::nullopt;
+  MarginalCovariances marginals;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) marginals.pose(i, j) = (*Sigma)(i, j);
+  }
+  for (const LandmarkId landmark : landmarks) {
+    const int row = InformationState::row_of(state.find(landmark).value());
+    Eigen::Matrix2d covariance;
+    covariance << (*Sigma)(row, row), (*Sigma)(row, row + 1), (*Sigma)(row + 1, row),
+        (*Sigma)(row + 1, row + 1);
+    marginals.landmarks.push_back(covariance);
+  }
+  return marginals;
+}
+
+}  // namespace seif

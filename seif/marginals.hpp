@@ -1,0 +1,36 @@
+// Marginal covariances of an information state, off the live path: a sparse Cholesky factorisation and those
+// entries of the inverse that lie on the factor's pattern.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seif/estimator.hpp"
+#include "seif/information_state.hpp"
+
+namespace seif {
+
+/// The entries of A^-1 on the pattern of its Cholesky factor, as blocks on the diagonal. Takahashi's
+/// recursion: Erisman, Tinney, "On computing certain elements of the inverse of a sparse matrix", CACM 1975.
+class DiagonalBlocksOfInverse {
+ public:
+  /// `A` is symmetric, its lower triangle given. Nothing if it is not positive definite.
+  static std::optional<DiagonalBlocksOfInverse> of(const Eigen::SparseMatrix<double>& A);
+
+  /// (A^-1)_ij. The entry A_ij must be stored, zero or not.
+  double operator()(int i, int j) const;
+
+ private:
+  Eigen::SparseMatrix<double> Z_;  // lower triangle, permuted
+  Eigen::VectorXi permuted_;       // where row i of A went
+};
+
+/// All means, in the order of the slots.
+std::vector<LandmarkEstimate> map_of(const InformationState& state);
+
+/// As Estimator::marginal_covariances.
+std::optional<MarginalCovariances> marginals_of(const InformationState& state,
+                                                std::span<const LandmarkId> landmarks);
+
+}  // namespace seif

@@ -1,0 +1,37 @@
+#include "seif/mean_recovery.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace seif {
+namespace {
+
+bool relax_landmark(InformationState& state, int slot) {
+  const Eigen::LLT<Eigen::Matrix2d> llt(state.information(slot));
+  if (llt.info() != Eigen::Success) return false;
+  state.move_landmark(slot, llt.solve(state.residual(slot)));
+  return true;
+}
+
+bool relax_robot(InformationState& state) {
+  const Eigen::LLT<Eigen::Matrix3d> llt(Eigen::Matrix3d(state.Omega().topLeftCorner<3, 3>()));
+  if (llt.info() != Eigen::Success) return false;
+  state.move_robot(llt.solve(state.r().head<3>()));
+  return true;
+}
+
+}  // namespace
+
+bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random) {
+  for (int position = 0; position < state.active_count(); ++position) {
+    if (!relax_landmark(state, state.active(position))) return false;
+  }
+  if (state.landmark_count() > 0) {
+    std::uniform_int_distribution<int> any_landmark(0, state.landmark_count() - 1);
+    for (int k = 0; k < random_landmarks; ++k) {
+      if (!relax_landmark(state, any_landmark(random))) return false;
+    }
+  }
+  return relax_robot(state);
+}
+
+}  // namespace seif

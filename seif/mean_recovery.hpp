@@ -1,0 +1,17 @@
+// Recovers the mean from the information form: section 3.2 of the report.
+#pragma once
+
+#include <random>
+
+#include "seif/information_state.hpp"
+
+namespace seif {
+
+/// The report's coordinate descent, eqs. (42), (43), Lemma 4: sets each coordinate to its optimum given all
+/// others, once for every active landmark, `random_landmarks` (the report's K) drawn from the whole map, and
+/// the robot. In residual form a coordinate's step is Omega_ii^-1 r_i. The robot comes last, so that r_x = 0
+/// afterwards. False if a diagonal block turns out not to be positive definite; the mean is then that of the
+/// steps before.
+[[nodiscard]] bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random);
+
+}  // namespace seif

@@ -1,0 +1,18 @@
+// The measurement update of the information form: eqs. (21), (22), Lemma 1 of the report.
+#pragma once
+
+#include <span>
+
+#include "seif/information_state.hpp"
+#include "seif/types.hpp"
+
+namespace seif {
+
+/// Adds the information of the observations, all linearised at the mean as it stands. A landmark that is not
+/// in the map joins it where the inverse observation puts it; a passive one becomes active. The mean of what
+/// is known already does not move: that is for the mean recovery. Returns the number of landmarks that
+/// joined.
+int measurement_update(InformationState& state, std::span<const Observation> observations,
+                       const Pose2& T_robot_sensor);
+
+}  // namespace seif

@@ -1,0 +1,57 @@
+#include "seif/motion_update.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "seif/models.hpp"
+
+namespace seif {
+namespace {
+
+/// H' = Psi' H Psi and r' = Psi' r. Psi = F^-1 differs from the identity in two entries of the robot's block
+/// alone: how x and y turn with the heading, with the sign changed; the book's (12.12), (12.13).
+void change_pose_variable(InformationState& state, const Eigen::Matrix3d& F) {
+  const double psi_x = -F(0, 2);
+  const double psi_y = -F(1, 2);
+  auto Omega = state.Omega();
+  auto r = state.r();
+  Omega.col(2) += psi_x * Omega.col(0) + psi_y * Omega.col(1);
+  Omega.row(2) += psi_x * Omega.row(0) + psi_y * Omega.row(1);
+  r(2) += psi_x * r(0) + psi_y * r(1);
+}
+
+/// (H'^-1 + S_x L L' S_x')^-1 = H' - A (I + L' A_x)^-1 A' with A = H' S_x L: the inverse of the noise is not
+/// needed, which a differential drive does not have. And r_bar = r' - A (I + L' A_x)^-1 L' r'_x.
+void add_motion_noise(InformationState& state, const Eigen::Matrix3d& L) {
+  auto Omega = state.Omega();
+  auto r = state.r();
+  auto A = state.work_columns();  // (w x 3)
+  A.noalias() = Omega.leftCols<3>() * L;
+  const Eigen::LLT<Eigen::Matrix3d> llt(Eigen::Matrix3d::Identity() + L.transpose() * A.topRows<3>());
+  const Eigen::Vector3d shift = llt.solve(L.transpose() * r.head<3>());
+  r.noalias() -= A * shift;
+  llt.matrixU().solveInPlace<Eigen::OnTheRight>(A);  // now A A' is the whole change
+  Omega.noalias() -= A * A.transpose();
+}
+
+/// Left alone, rounding makes the robot's rows lose their symmetry, and then Omega its definiteness,
+/// exponentially.
+void symmetrise_robot_rows(InformationState& state) {
+  auto Omega = state.Omega();
+  auto Omega_xx = Omega.topLeftCorner<3, 3>();
+  Omega_xx = (0.5 * (Omega_xx + Omega_xx.transpose())).eval();
+  const auto landmarks = Omega.rows() - 3;
+  Omega.topRightCorner(3, landmarks) = Omega.bottomLeftCorner(landmarks, 3).transpose();
+}
+
+}  // namespace
+
+void motion_update(InformationState& state, const Odometry& odometry) {
+  const PredictedPose predicted = predict_pose(state.pose(), odometry);
+  change_pose_variable(state, predicted.J_wrt_pose);
+  add_motion_noise(state, predicted.noise_factor);
+  symmetrise_robot_rows(state);
+  state.set_pose(predicted.pose);
+  state.touch(state.window_blocks());
+}
+
+}  // namespace seif

@@ -1,0 +1,140 @@
+// The information filter written down densely, straight from the report's equations, with inverses of the
+// whole matrix where the report has them: what the block-sparse steps are held against.
+#pragma once
+
+#include <Eigen/Dense>
+#include <random>
+#include <vector>
+
+#include "seif/information_state.hpp"
+#include "seif/models.hpp"
+#include "seif/types.hpp"
+
+namespace seif::oracle {
+
+struct DenseBelief {
+  Eigen::MatrixXd H;   // information matrix (n x n)
+  Eigen::VectorXd b;   // information vector (n x 1)
+  Eigen::VectorXd mu;  // the mean that the filter believes in; H^-1 b only after exact recovery (n x 1)
+};
+
+inline Eigen::MatrixXd symmetric(const Eigen::SparseMatrix<double>& lower) {
+  return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+}
+
+inline DenseBelief dense(const InformationState& state) {
+  DenseBelief belief{.H = symmetric(state.full_Omega()), .b = {}, .mu = state.full_mu()};
+  belief.b = state.full_r() + belief.H * belief.mu;
+  return belief;
+}
+
+/// mu = H^-1 b, eq. (10).
+inline void recover_mean(DenseBelief& belief) { belief.mu = belief.H.ldlt().solve(belief.b); }
+
+inline void recover_mean(InformationState& state) {
+  state.move_all(symmetric(state.full_Omega()).ldlt().solve(state.full_r()));
+}
+
+inline Pose2 pose_of(const DenseBelief& belief) { return {belief.mu(0), belief.mu(1), belief.mu(2)}; }
+
+/// Eqs. (33), (34) as they stand: by the covariance.
+inline void motion_update(DenseBelief& belief, const Odometry& odometry) {
+  const PredictedPose predicted = predict_pose(pose_of(belief), odometry);
+  const auto n = belief.H.rows();
+  Eigen::MatrixXd I_plus_A = Eigen::MatrixXd::Identity(n, n);
+  I_plus_A.topLeftCorner<3, 3>() = predicted.J_wrt_pose;
+  Eigen::MatrixXd SUS = Eigen::MatrixXd::Zero(n, n);
+  SUS.topLeftCorner<3, 3>() = predicted.noise_factor * predicted.noise_factor.transpose();
+  const Eigen::MatrixXd H_inverse = belief.H.inverse();
+  const Eigen::VectorXd mean = H_inverse * belief.b;
+  // The mean of (34) is that of the linearised motion, g(mu) + (I + A)(mean - mu), where mu is only nearly
+  // the mean.
+  Eigen::VectorXd moved = belief.mu;
+  moved.head<3>() << predicted.pose.x, predicted.pose.y, predicted.pose.theta;
+  belief.H = (I_plus_A * H_inverse * I_plus_A.transpose() + SUS).inverse();
+  belief.b = belief.H * (moved + I_plus_A * (mean - belief.mu));
+  belief.mu = moved;
+}
+
+/// A landmark of which nothing is known yet.
+inline void add_landmark(DenseBelief& belief, const Eigen::Vector2d& mean) {
+  const auto n = belief.H.rows();
+  belief.H.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 2, n + 2));
+  belief.b.conservativeResizeLike(Eigen::VectorXd::Zero(n + 2));
+  belief.mu.conservativeResize(n + 2);
+  belief.mu.tail<2>() = mean;
+}
+
+/// Eqs. (21), (22).
+inline void measurement_update(DenseBelief& belief, int slot, const Observation& observation,
+                               const Pose2& T_robot_sensor) {
+  const int row = InformationState::row_of(slot);
+  const PredictedObservation predicted =
+      predict_observation(pose_of(belief), T_robot_sensor, belief.mu.segment<2>(row));
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(belief.H.rows(), 2);
+  C.topRows<3>() = predicted.J_wrt_pose.transpose();
+  C.middleRows<2>(row) = predicted.J_wrt_landmark.transpose();
+  const Eigen::Matrix2d Z_inverse = observation.covariance.inverse();
+  belief.H += C * Z_inverse * C.transpose();
+  belief.b += C * Z_inverse * (innovation(observation, predicted.z) + C.transpose() * belief.mu);
+}
+
+/// Eq. (50), with its projection matrices: `dropped` are the slots of Y0, `kept` those of Y+.
+inline Eigen::MatrixXd sparsified(const Eigen::MatrixXd& H, const std::vector<int>& kept,
+                                  const std::vector<int>& dropped) {
+  const auto n = H.rows();
+  const auto projection = [n](bool robot, const std::vector<int>& slots) {
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, (robot ? 3 : 0) + 2 * static_cast<int>(slots.size()));
+    int col = 0;
+    if (robot) {
+      S.topLeftCorner<3, 3>().setIdentity();
+      col = 3;
+    }
+    for (const int slot : slots) {
+      S.block<2, 2>(InformationState::row_of(slot), col).setIdentity();
+      col += 2;
+    }
+    return S;
+  };
+  std::vector<int> active = kept;
+  active.insert(active.end(), dropped.begin(), dropped.end());
+  const Eigen::MatrixXd S_all = projection(true, active);
+  const Eigen::MatrixXd S_0 = projection(false, dropped);
+  const Eigen::MatrixXd S_x0 = projection(true, dropped);
+  const Eigen::MatrixXd S_x = projection(true, {});
+  const auto marginal_term = [](const Eigen::MatrixXd& G, const Eigen::MatrixXd& S) {
+    return Eigen::MatrixXd(G * S * (S.transpose() * G * S).inverse() * S.transpose() * G);
+  };
+  const Eigen::MatrixXd H0 = S_all * S_all.transpose() * H * S_all * S_all.transpose();  // (47)
+  return H - marginal_term(H0, S_0) + marginal_term(H0, S_x0) - marginal_term(H, S_x);
+}
+
+/// A drive through random landmarks, with passive landmarks and links among them: the states that the tests
+/// start from. The mean is exact if `exact_mean`, otherwise what no recovery at all leaves.
+struct RandomDrive {
+  explicit RandomDrive(unsigned seed) : random(seed) {}
+
+  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random); }
+
+  Odometry odometry() {
+    Odometry u;
+    u.T_previous_current = {uniform(0.1, 0.5), uniform(-0.02, 0.02), uniform(-0.4, 0.4)};
+    Eigen::Matrix<double, 3, 2> L;  // rank 2, as a differential drive's
+    L << 0.02, 0.01, 0.001, -0.002, 0.01, -0.02;
+    u.covariance = L * L.transpose();
+    return u;
+  }
+
+  Observation observation(LandmarkId landmark, const Pose2& T_world_sensor, const Eigen::Vector2d& p_world) {
+    const Eigen::Vector2d p = inverse(T_world_sensor) * p_world;
+    Observation z{
+        .landmark = landmark, .range = p.norm() + uniform(-0.05, 0.05), .bearing = 0.0, .covariance = {}};
+    z.bearing = wrap_angle(std::atan2(p.y(), p.x()) + uniform(-0.02, 0.02));
+    z.covariance << 0.0025, 0.0002, 0.0002, 0.0004;
+    return z;
+  }
+
+  std::mt19937_64 random;
+};
+
+}  // namespace seif::oracle

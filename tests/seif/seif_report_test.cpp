@@ -1,0 +1,166 @@
+#include "seif/seif_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "allocation_counter.hpp"
+#include "seif/registry.hpp"
+
+namespace seif {
+namespace {
+
+const StageDone ignore = [](Stage) {};
+
+/// A robot that drives round and round a ring of landmarks, 1.5 m apart on either side, and sees those within
+/// 4 m.
+class RingDrive {
+ public:
+  RingDrive(int landmarks, unsigned seed) : landmarks_(landmarks), random_(seed) {
+    radius_ = 1.5 * (landmarks / 2) / (2 * std::numbers::pi);
+    scan_.observations.reserve(20);
+  }
+
+  EstimatorSetup setup() const {
+    return {.start = {.mean = truth(),
+                      .covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal().toDenseMatrix()},
+            .T_robot_sensor = {},
+            .random = std::mt19937_64(5)};
+  }
+
+  void step(Estimator& filter) {
+    const Pose2 before = truth();
+    along_ += 0.5 / radius_;
+    Odometry u{.t = ++t_, .T_previous_current = inverse(before) * truth()};
+    u.covariance.diagonal() << 1e-4, 1e-6, 1e-5;
+    u.T_previous_current.x += 1e-2 * noise_(random_);
+    u.T_previous_current.theta += 3e-3 * noise_(random_);
+    filter.motion_update(u);
+
+    scan_.t = t_;
+    scan_.observations.clear();
+    const auto here = static_cast<int>(along_ * radius_ / 1.5);
+    for (int k = here - 4; k <= here + 4; ++k) {
+      for (const int side : {0, 1}) see(((k * 2 + side) % landmarks_ + landmarks_) % landmarks_);
+    }
+    filter.measurement_update(scan_, ignore);
+  }
+
+  int steps_for_a_round() const { return static_cast<int>(std::ceil(2 * std::numbers::pi * radius_ / 0.5)); }
+
+ private:
+  Pose2 truth() const {
+    return {radius_ * std::cos(along_), radius_ * std::sin(along_),
+            wrap_angle(along_ + std::numbers::pi / 2)};
+  }
+
+  void see(int landmark) {
+    const double angle = (landmark / 2) * 1.5 / radius_;
+    const double r = radius_ + (landmark % 2 == 0 ? 1.5 : -1.5);
+    const Eigen::Vector2d p = inverse(truth()) * Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle));
+    if (p.norm() > 4.0) return;
+    Observation z{.landmark = landmark, .range = p.norm() + 0.02 * noise_(random_)};
+    z.bearing = wrap_angle(std::atan2(p.y(), p.x()) + 0.01 * noise_(random_));
+    z.covariance.diagonal() << 4e-4, 1e-4;
+    scan_.observations.push_back(z);
+  }
+
+  int landmarks_;
+  double radius_;
+  double along_ = 0.0;
+  double t_ = 0.0;
+  Scan scan_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> noise_;
+};
+
+TEST(SeifReport, BoundsTheActiveLandmarksByThetaX) {
+  RingDrive drive(60, 1);
+  SeifReport filter(drive.setup(), {.theta_x = 4, .random_landmarks = 5});
+  for (int k = 0; k < 200; ++k) {
+    drive.step(filter);
+    EXPECT_LE(filter.counts().active_landmarks, 4);
+  }
+  EXPECT_EQ(filter.map().size(), 60U);
+}
+
+TEST(SeifReport, GivesTheSameBitsForTheSameRandomStream) {
+  RingDrive drive_a(60, 2);
+  RingDrive drive_b(60, 2);
+  SeifReport a(drive_a.setup(), {});
+  SeifReport b(drive_b.setup(), {});
+  for (int k = 0; k < 150; ++k) {
+    drive_a.step(a);
+    drive_b.step(b);
+    ASSERT_EQ(a.pose().x, b.pose().x);
+    ASSERT_EQ(a.pose().theta, b.pose().theta);
+  }
+}
+
+/// Mean number of blocks touched by an update at the end of one round.
+double blocks_touched(int landmarks) {
+  RingDrive drive(landmarks, 3);
+  SeifReport filter(drive.setup(), {});
+  const int measured = 100;
+  for (int k = 0; k < drive.steps_for_a_round() - measured; ++k) drive.step(filter);
+  const std::int64_t before = filter.counts().blocks_touched;
+  for (int k = 0; k < measured; ++k) drive.step(filter);
+  return static_cast<double>(filter.counts().blocks_touched - before) / measured;
+}
+
+TEST(SeifReport, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
+  const double small = blocks_touched(300);
+  const double large = blocks_touched(20'000);
+  EXPECT_NEAR(large / small, 1.0, 0.1);
+}
+
+TEST(SeifReport, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
+  RingDrive drive(300, 3);
+  SeifReport filter(drive.setup(), {.drop = DropOrder::weakest_link});
+  EXPECT_THROW(
+      {
+        for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) drive.step(filter);
+      },
+      NumericalFailure);
+}
+
+TEST(SeifReport, AllocatesNothingOnceTheMapIsBuilt) {
+  if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
+  RingDrive drive(60, 4);
+  SeifReport filter(drive.setup(), {});
+  for (int k = 0; k < 3 * drive.steps_for_a_round(); ++k) drive.step(filter);
+  const long before = allocations();
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
+  EXPECT_EQ(allocations(), before);
+}
+
+TEST(SeifReport, TakesEmptyScansAndAWorldWithoutLandmarks) {
+  RingDrive drive(60, 5);
+  SeifReport filter(drive.setup(), {});
+  filter.measurement_update({.t = 0.0, .observations = {}}, ignore);
+  EXPECT_TRUE(filter.map().empty());
+  EXPECT_EQ(filter.counts().links, 0);
+}
+
+TEST(Registry, RefusesASecondTypeOfTheSameName) {
+  Registry registry = standard_estimators();
+  EXPECT_NE(registry.find("seif_report"), nullptr);
+  EXPECT_EQ(registry.find("no_such_filter"), nullptr);
+  EXPECT_THROW(registry.add(seif_report_type()), std::invalid_argument);
+}
+
+TEST(Registry, MakesEveryStandardEstimatorFromItsDefaults) {
+  const RingDrive drive(60, 6);
+  const Registry registry = standard_estimators();
+  for (const EstimatorType& type : registry.types()) {
+    Options options;
+    for (const OptionSpec& spec : type.options) options[spec.key] = spec.fallback;
+    EXPECT_EQ(type.make(drive.setup(), options)->map().size(), 0U) << type.name;
+  }
+}
+
+}  // namespace
+}  // namespace seif

@@ -1,0 +1,221 @@
+// Each step of the SEIF against the dense oracle, on states that a random drive leaves behind.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+#include <vector>
+
+#include "dense_oracle.hpp"
+#include "seif/information_state.hpp"
+#include "seif/marginals.hpp"
+#include "seif/mean_recovery.hpp"
+#include "seif/measurement_update.hpp"
+#include "seif/motion_update.hpp"
+#include "seif/sparsification.hpp"
+
+namespace seif {
+namespace {
+
+using oracle::DenseBelief;
+using oracle::RandomDrive;
+
+constexpr double rounding = 1e-10;  // relative, after some tens of updates of conditioned matrices
+
+const PoseEstimate start{.mean = {0.1, -0.2, 0.3},
+                         .covariance = Eigen::Vector3d(0.01, 0.02, 0.001).asDiagonal().toDenseMatrix()};
+const Pose2 T_robot_sensor{0.15, -0.05, 0.2};
+
+double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / b.norm(); }
+
+void expect_equal(const InformationState& state, const DenseBelief& belief) {
+  const DenseBelief now = oracle::dense(state);
+  EXPECT_LT(relative(now.H, belief.H), rounding);
+  EXPECT_LT(relative(now.b, belief.b), rounding);
+  EXPECT_LT(relative(now.mu, belief.mu), rounding);
+}
+
+/// Drives on with the report's filter: at most 5 active landmarks, and a mean that is never exact.
+void drive(InformationState& state, RandomDrive& random, int updates) {
+  std::vector<int> surplus;
+  Pose2 T_world_robot = state.pose();
+  for (int k = 0; k < updates; ++k) {
+    const Odometry u = random.odometry();
+    T_world_robot = T_world_robot * u.T_previous_current;
+    motion_update(state, u);
+    std::vector<Observation> scan;
+    for (int i = 0; i < 3; ++i) {
+      const auto landmark = static_cast<LandmarkId>(random.uniform(0, 20));
+      scan.push_back(random.observation(landmark, T_world_robot * T_robot_sensor,
+                                        {1.0 + landmark % 5 - 0.1 * landmark, -2.0 + 0.4 * landmark}));
+    }
+    measurement_update(state, scan, T_robot_sensor);
+    if (state.active_count() > 5) {
+      choose_to_drop(state, DropOrder::weakest_link, state.active_count() - 5, surplus);
+      ASSERT_TRUE(sparsify_report(state, surplus));
+    }
+    ASSERT_TRUE(coordinate_descent(state, 2, random.random));
+  }
+}
+
+class SeifSteps : public testing::TestWithParam<unsigned> {
+ protected:
+  void SetUp() override { drive(state, random, 25); }
+
+  RandomDrive random{GetParam()};
+  InformationState state{start};
+};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SeifSteps, testing::Values(1U, 2U, 3U, 4U, 5U));
+
+TEST_P(SeifSteps, MotionUpdateMatchesTheDenseInverses) {
+  DenseBelief belief = oracle::dense(state);
+  for (int k = 0; k < 4; ++k) {
+    const Odometry u = random.odometry();
+    oracle::motion_update(belief, u);
+    motion_update(state, u);
+    expect_equal(state, belief);
+  }
+}
+
+TEST_P(SeifSteps, MotionUpdateIsExactWithoutNoise) {
+  DenseBelief belief = oracle::dense(state);
+  Odometry u = random.odometry();
+  u.covariance.setZero();
+  oracle::motion_update(belief, u);
+  motion_update(state, u);
+  expect_equal(state, belief);
+}
+
+TEST_P(SeifSteps, MotionUpdateLeavesTheResidualWhereTheRobotHasNone) {
+  ASSERT_TRUE(
+      coordinate_descent(state, 0, random.random));  // the report's (36), sign mended, holds if r_x = 0
+  const Eigen::VectorXd r = state.full_r();
+  ASSERT_LT(r.head<3>().norm(), 1e-9);
+  ASSERT_GT(r.norm(), 1e-3);
+  motion_update(state, random.odometry());
+  EXPECT_LT((state.full_r() - r).norm(), 1e-9);
+}
+
+TEST_P(SeifSteps, MeasurementUpdateMatchesTheDenseFormAndActivates) {
+  DenseBelief belief = oracle::dense(state);
+  const Pose2 T_world_sensor = state.pose() * T_robot_sensor;
+  std::vector<Observation> scan;
+  for (int slot = 0; slot < state.landmark_count(); slot += 2) {
+    scan.push_back(random.observation(state.id(slot), T_world_sensor, state.mean(slot)));
+  }
+  scan.push_back(random.observation(77, T_world_sensor, {3.0, 1.0}));
+  for (const Observation& z : scan) {
+    if (!state.find(z.landmark)) {
+      oracle::add_landmark(belief, invert_observation(state.pose(), T_robot_sensor, z).p_world_landmark);
+    }
+  }
+  EXPECT_EQ(measurement_update(state, scan, T_robot_sensor), 1);
+  for (const Observation& z : scan) {
+    const int slot = state.find(z.landmark).value();
+    oracle::measurement_update(belief, slot, z, T_robot_sensor);
+    EXPECT_GE(state.position(slot), 0);
+  }
+  expect_equal(state, belief);
+}
+
+TEST_P(SeifSteps, SparsificationMatchesEquation50AndKeepsTheMean) {
+  const DenseBelief before = oracle::dense(state);
+  std::vector<int> dropped;
+  choose_to_drop(state, DropOrder::weakest_link, 3, dropped);
+  std::vector<int> kept;
+  for (int position = 0; position < state.active_count(); ++position) {
+    if (!std::ranges::count(dropped, state.active(position))) kept.push_back(state.active(position));
+  }
+  const Eigen::VectorXd r = state.full_r();
+  ASSERT_TRUE(sparsify_report(state, dropped));
+
+  const Eigen::MatrixXd H = oracle::symmetric(state.full_Omega());
+  EXPECT_LT(relative(H, oracle::sparsified(before.H, kept, dropped)), rounding);
+  EXPECT_EQ(state.full_r(), r);  // (51): b~ - H~ mu = b - H mu
+  EXPECT_EQ(state.full_mu(), before.mu);
+  for (const int slot : dropped) {
+    EXPECT_EQ(state.position(slot), -1);
+    EXPECT_TRUE(H.block(0, InformationState::row_of(slot), 3, 2).isZero(0.0));
+  }
+  EXPECT_EQ(state.active_count(), static_cast<int>(kept.size()));
+}
+
+TEST_P(SeifSteps, SparsificationKeepsTheMarginalOfTheMap) {
+  const auto map_covariance = [](const InformationState& s) {
+    const auto n = 2 * s.landmark_count();
+    return Eigen::MatrixXd(oracle::symmetric(s.full_Omega()).inverse().bottomRightCorner(n, n));
+  };
+  const Eigen::MatrixXd before = map_covariance(state);
+  std::vector<int> dropped;
+  choose_to_drop(state, DropOrder::weakest_link, 2, dropped);
+  ASSERT_TRUE(sparsify_report(state, dropped));
+  EXPECT_LT(relative(map_covariance(state), before), 1e-8);  // two inverses
+}
+
+TEST_P(SeifSteps, CoordinateDescentReachesTheExactMeanIfRepeated) {
+  DenseBelief belief = oracle::dense(state);
+  oracle::recover_mean(belief);
+  const double error = (state.full_mu() - belief.mu).norm();
+  ASSERT_GT(error, 1e-4);
+  double energy = state.full_r().dot(belief.H.ldlt().solve(state.full_r()));
+  for (int sweep = 0; sweep < 10'000; ++sweep) {  // relaxation is slow; only the way is tested here
+    ASSERT_TRUE(coordinate_descent(state, 20, random.random));
+    const double now = state.full_r().dot(belief.H.ldlt().solve(state.full_r()));
+    ASSERT_LE(now, energy * (1 + 1e-9));  // each step goes down, Lemma 4
+    energy = now;
+  }
+  EXPECT_LT((state.full_mu() - belief.mu).norm(), 0.01 * error);
+}
+
+TEST_P(SeifSteps, MovingTheMeanKeepsTheInformationVector) {
+  const DenseBelief before = oracle::dense(state);
+  state.move_robot({0.1, -0.2, 0.05});
+  for (int slot = 0; slot < state.landmark_count(); ++slot) state.move_landmark(slot, {0.01 * slot, -0.3});
+  const DenseBelief after = oracle::dense(state);
+  EXPECT_EQ(after.H, before.H);
+  EXPECT_LT(relative(after.b, before.b), 1e-12);
+}
+
+TEST_P(SeifSteps, MarginalsAreBlocksOfTheDenseInverse) {
+  const Eigen::MatrixXd Sigma = oracle::symmetric(state.full_Omega()).inverse();
+  std::vector<LandmarkId> landmarks;
+  for (int slot = 0; slot < state.landmark_count(); ++slot) landmarks.push_back(state.id(slot));
+  const auto marginals = marginals_of(state, landmarks);
+  ASSERT_TRUE(marginals);
+  EXPECT_LT(relative(marginals->pose, Sigma.topLeftCorner<3, 3>()), 1e-9);
+  for (int slot = 0; slot < state.landmark_count(); ++slot) {
+    const int row = InformationState::row_of(slot);
+    EXPECT_LT(relative(marginals->landmarks[static_cast<std::size_t>(slot)], Sigma.block<2, 2>(row, row)),
+              1e-9);
+  }
+}
+
+TEST_P(SeifSteps, LinkCountIsThatOfTheDenseMatrix) {
+  const Eigen::MatrixXd H = oracle::symmetric(state.full_Omega());
+  int links = 0;
+  for (int i = 0; i < state.landmark_count(); ++i) {
+    const int row = InformationState::row_of(i);
+    if (!H.block(row, 0, 2, 3).isZero(0.0)) ++links;
+    for (int j = 0; j < i; ++j) {
+      if (!H.block(row, InformationState::row_of(j), 2, 2).isZero(0.0)) ++links;
+    }
+  }
+  EXPECT_EQ(state.link_count(), links);
+}
+
+TEST(SeifSteps, StaysSymmetricAndPositiveDefiniteOverManyUpdates) {
+  RandomDrive random(7);
+  InformationState state(start);
+  drive(state, random, 2000);
+  EXPECT_LT(relative(state.Omega().transpose(), state.Omega()), 1e-14);
+  EXPECT_EQ(oracle::symmetric(state.full_Omega()).llt().info(), Eigen::Success);
+  EXPECT_LE(state.active_count(), 5);
+}
+
+TEST(InformationState, RefusesAStartThatIsKnownPerfectly) {
+  EXPECT_THROW(InformationState(PoseEstimate{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace seif
