@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 
 #include "seif/models.hpp"
@@ -174,16 +173,6 @@ std::optional<MarginalCovariances> Ekf::marginal_covariances(std::span<const Lan
 
 Eigen::MatrixXd Ekf::Sigma() const {
   return Sigma_.topLeftCorner(size(), size()).selfadjointView<Eigen::Lower>();
-}
-
-EstimatorType ekf_type() {
-  return {
-      .name = "ekf",
-      .help = "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline.",
-      .options = {},
-      .make = [](const EstimatorSetup& setup, const Options&) -> std::unique_ptr<Estimator> {
-        return std::make_unique<Ekf>(setup);
-      }};
 }
 
 }  // namespace seif

@@ -6,7 +6,6 @@
 
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
-#include "seif/registry.hpp"
 
 namespace seif {
 
@@ -64,8 +63,5 @@ class Ekf final : public Estimator {
   Pose2 T_robot_sensor_;
   std::int64_t blocks_touched_ = 0;
 };
-
-/// The registered type `ekf`.
-EstimatorType ekf_type();
 
 }  // namespace seif

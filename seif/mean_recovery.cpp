@@ -1,6 +1,7 @@
 #include "seif/mean_recovery.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 
 namespace seif {
 namespace {
@@ -32,6 +33,13 @@ bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19
     }
   }
   return relax_robot(state);
+}
+
+bool solve_mean(InformationState& state) {
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt(state.full_Omega());
+  if (llt.info() != Eigen::Success) return false;
+  state.move_all(llt.solve(state.full_r()));
+  return true;
 }
 
 }  // namespace seif

@@ -14,4 +14,8 @@ namespace seif {
 /// steps before.
 [[nodiscard]] bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random);
 
+/// The exact mean, eq. (37): moves it by Omega^-1 r, by sparse Cholesky. Not in constant time.
+/// False, with the mean unchanged, if Omega is not positive definite.
+[[nodiscard]] bool solve_mean(InformationState& state);
+
 }  // namespace seif

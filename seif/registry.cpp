@@ -4,9 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "seif/ekf.hpp"
-#include "seif/seif_report.hpp"
-
 namespace seif {
 
 void Registry::add(EstimatorType type) {
@@ -18,13 +15,6 @@ void Registry::add(EstimatorType type) {
 const EstimatorType* Registry::find(std::string_view name) const {
   const auto it = std::ranges::find(types_, name, &EstimatorType::name);
   return it == types_.end() ? nullptr : &*it;
-}
-
-Registry standard_estimators() {
-  Registry registry;
-  registry.add(ekf_type());
-  registry.add(seif_report_type());
-  return registry;
 }
 
 }  // namespace seif

@@ -1,13 +1,16 @@
 #include "seif/sparsification.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 namespace seif {
 namespace {
 
+using Sparse = Eigen::SparseMatrix<double>;
 using Columns = Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 3>>;
 using LLT3 = Eigen::LLT<Eigen::Matrix3d>;
 
@@ -23,24 +26,23 @@ bool marginalise_landmark(Eigen::Ref<Eigen::MatrixXd> M, int row, Columns column
   return true;
 }
 
-}  // namespace
-
-bool sparsify_report(InformationState& state, std::span<const int> slots) {
-  // With H0 = the window's block of H, and x, K, Z the robot and the landmarks that stay and that go, (50) is
-  //   [Lambda X] = rows x of the marginal of H0 over (x, K),
-  //   H_mm -= H_mx H_xx^-1 H_xm  (H3: the robot marginalised out; m all landmarks of the window),
-  //   H_xx = Lambda, H_xK = X, H_xZ = 0, H_KK += X' Lambda^-1 X.
+/// Takes away the robot's links to the landmarks `slots`. With D in state.work(), the belief over the window
+/// from which p(x | Y+) is to be taken, and x, K, Z the robot and the landmarks that stay and that go, (50)
+/// is
+///   [Lambda X] = rows x of the marginal of D over (x, K),
+///   H_mm -= H_mx H_xx^-1 H_xm  (H3: the robot marginalised out; m all landmarks of the window),
+///   H_xx = Lambda, H_xK = X, H_xZ = 0, H_KK += X' Lambda^-1 X.
+bool drop_links(InformationState& state, std::span<const int> slots) {
   auto Omega = state.Omega();
-  auto M = state.work();          // (w x w)
+  auto D = state.work();          // (w x w)
   auto V = state.work_columns();  // (w x 3)
-  M = Omega;
   for (const int slot : slots) {
     const int row = InformationState::row_of(state.position(slot));
-    if (!marginalise_landmark(M, row, V)) return false;
-    M.topRows<3>().middleCols<2>(row).setZero();  // zero but for rounding
+    if (!marginalise_landmark(D, row, V)) return false;
+    D.topRows<3>().middleCols<2>(row).setZero();  // zero but for rounding
   }
   const LLT3 Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
-  const LLT3 Lambda(Eigen::Matrix3d(M.topLeftCorner<3, 3>()));
+  const LLT3 Lambda(Eigen::Matrix3d(D.topLeftCorner<3, 3>()));
   if (Omega_xx.info() != Eigen::Success || Lambda.info() != Eigen::Success) return false;
 
   const auto rows = Omega.rows() - 3;
@@ -50,14 +52,58 @@ bool sparsify_report(InformationState& state, std::span<const int> slots) {
   Omega_xx.matrixU().solveInPlace<Eigen::OnTheRight>(V_m);
   Omega_mm.noalias() -= V_m * V_m.transpose();
 
-  Omega.topRows<3>() = M.topRows<3>();
-  Omega.bottomLeftCorner(rows, 3) = M.topRightCorner(3, rows).transpose();
+  Omega.topRows<3>() = D.topRows<3>();
+  Omega.bottomLeftCorner(rows, 3) = D.topRightCorner(3, rows).transpose();
   V_m = Omega.bottomLeftCorner(rows, 3);
   Lambda.matrixU().solveInPlace<Eigen::OnTheRight>(V_m);
   Omega_mm.noalias() += V_m * V_m.transpose();
   state.touch((static_cast<int>(slots.size()) + 2) * state.window_blocks());
   for (const int slot : slots) state.deactivate(state.position(slot));
   return true;
+}
+
+/// The information matrix of the marginal over the window, the passive landmarks P marginalised out:
+/// Omega_ww - Omega_wP Omega_PP^-1 Omega_Pw (w x w). Nothing if Omega_PP is not positive definite.
+std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
+  const Sparse Omega = state.full_Omega().selfadjointView<Eigen::Lower>();
+  const int window = state.window_size();
+  Eigen::VectorXi order(
+      Omega.rows());  // old row -> new row: the window in its own order, then the passive landmarks
+  order.head<3>() << 0, 1, 2;
+  int next = window;
+  for (int slot = 0; slot < state.landmark_count(); ++slot) {
+    const int position = state.position(slot);
+    const int to = position < 0 ? std::exchange(next, next + 2) : InformationState::row_of(position);
+    order.segment<2>(InformationState::row_of(slot)) << to, to + 1;
+  }
+  const Eigen::PermutationMatrix<Eigen::Dynamic> permutation(order);
+  const Sparse ordered = permutation * Omega * permutation.transpose();
+  const auto passive = static_cast<int>(Omega.rows()) - window;
+  if (passive == 0) return Eigen::MatrixXd(state.Omega());
+  const Sparse Omega_PP = ordered.bottomRightCorner(passive, passive);
+  const Eigen::MatrixXd Omega_Pw = ordered.bottomLeftCorner(passive, window);
+  const Eigen::SimplicialLLT<Sparse> llt(Omega_PP);
+  if (llt.info() != Eigen::Success) return std::nullopt;
+  return state.Omega() - Omega_Pw.transpose() * llt.solve(Omega_Pw);
+}
+
+}  // namespace
+
+bool sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
+  assert(static_cast<int>(slots.size()) < state.active_count());
+  switch (rule) {
+    case SparsificationRule::report:
+      state.work() = state.Omega();
+      break;
+    case SparsificationRule::modified:
+      if (const auto marginal = window_marginal(state)) {
+        state.work() = *marginal;
+        state.touch(std::int64_t{state.landmark_count()});
+        break;
+      }
+      return false;
+  }
+  return drop_links(state, slots);
 }
 
 void choose_to_drop(const InformationState& state, DropOrder order, int count, std::vector<int>& slots) {

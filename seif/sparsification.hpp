@@ -8,13 +8,24 @@
 
 namespace seif {
 
-/// The report's rule, eq. (50): in p(x | Y+, Y0, Y- = 0) the robot's dependence on the landmarks Y0 is
-/// dropped, and p(Y) is kept. Setting the passive landmarks Y- to a constant anchors the window to the world
-/// frame, which counts as known what is not: the filter becomes overconfident.
-///
-/// The active landmarks `slots` become passive. r stays, and so does the mean, eq. (51).
-/// False, with the state unchanged, if Omega turns out not to be positive definite.
-[[nodiscard]] bool sparsify_report(InformationState& state, std::span<const int> slots);
+/// All rules keep p(Y), the belief over the map, and replace p(x | Y) by a p(x | Y+) in which the robot no
+/// longer depends on the landmarks Y0 that are dropped, eq. (46). They differ in the belief D from which p(x
+/// | Y+) is taken.
+enum class SparsificationRule {
+  /// Eqs. (47)-(50): D = p(x, Y+, Y0 | Y- = 0). To set the passive landmarks Y- to a constant anchors the
+  /// window to the
+  /// world frame, which counts as known what is not: the filter becomes overconfident. In constant time.
+  report,
+  /// D = p(x, Y+, Y0), the passive landmarks marginalised out: Eustice, Walter, Leonard, "Sparse extended
+  /// information
+  /// filters: insights into sparsification", IROS 2005. Not in constant time.
+  modified
+};
+
+/// Takes away the robot's links to the active landmarks `slots`, which become passive. r stays, and so does
+/// the mean, eq. (51). At least one landmark must stay active. False, with the state unchanged, if a matrix
+/// turns out not to be positive definite.
+[[nodiscard]] bool sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots);
 
 /// Which active landmarks lose their link to the robot first. A link's strength is the Frobenius norm of its
 /// block.

@@ -79,34 +79,45 @@ inline void measurement_update(DenseBelief& belief, int slot, const Observation&
   belief.b += C * Z_inverse * (innovation(observation, predicted.z) + C.transpose() * belief.mu);
 }
 
-/// Eq. (50), with its projection matrices: `dropped` are the slots of Y0, `kept` those of Y+.
-inline Eigen::MatrixXd sparsified(const Eigen::MatrixXd& H, const std::vector<int>& kept,
+/// The columns of the identity (n x n) for the robot, if `robot`, and for landmark slots: the report's S.
+inline Eigen::MatrixXd projection(Eigen::Index n, bool robot, const std::vector<int>& slots) {
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, (robot ? 3 : 0) + 2 * static_cast<int>(slots.size()));
+  int col = 0;
+  if (robot) {
+    S.topLeftCorner<3, 3>().setIdentity();
+    col = 3;
+  }
+  for (const int slot : slots) {
+    S.block<2, 2>(InformationState::row_of(slot), col).setIdentity();
+    col += 2;
+  }
+  return S;
+}
+
+/// H S (S' H S)^-1 S' H: what marginalising S out takes away.
+inline Eigen::MatrixXd taken_away(const Eigen::MatrixXd& H, const Eigen::MatrixXd& S) {
+  return H * S * (S.transpose() * H * S).inverse() * S.transpose() * H;
+}
+
+/// The belief over robot and active landmarks that the report takes p(x | Y+) from: conditioned on Y- = 0,
+/// eq. (47).
+inline Eigen::MatrixXd conditioned(const Eigen::MatrixXd& H, const std::vector<int>& active) {
+  const Eigen::MatrixXd S = projection(H.rows(), true, active);
+  return S * S.transpose() * H * S * S.transpose();
+}
+
+/// The same with Y- marginalised out: Eustice's modified rule.
+inline Eigen::MatrixXd marginalised(const Eigen::MatrixXd& H, const std::vector<int>& active) {
+  const Eigen::MatrixXd S = projection(H.rows(), true, active);
+  return S * (S.transpose() * H.inverse() * S).inverse() * S.transpose();
+}
+
+/// Eq. (50), with `H0` the belief over robot and active landmarks, and `dropped` the slots of Y0.
+inline Eigen::MatrixXd sparsified(const Eigen::MatrixXd& H, const Eigen::MatrixXd& H0,
                                   const std::vector<int>& dropped) {
   const auto n = H.rows();
-  const auto projection = [n](bool robot, const std::vector<int>& slots) {
-    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, (robot ? 3 : 0) + 2 * static_cast<int>(slots.size()));
-    int col = 0;
-    if (robot) {
-      S.topLeftCorner<3, 3>().setIdentity();
-      col = 3;
-    }
-    for (const int slot : slots) {
-      S.block<2, 2>(InformationState::row_of(slot), col).setIdentity();
-      col += 2;
-    }
-    return S;
-  };
-  std::vector<int> active = kept;
-  active.insert(active.end(), dropped.begin(), dropped.end());
-  const Eigen::MatrixXd S_all = projection(true, active);
-  const Eigen::MatrixXd S_0 = projection(false, dropped);
-  const Eigen::MatrixXd S_x0 = projection(true, dropped);
-  const Eigen::MatrixXd S_x = projection(true, {});
-  const auto marginal_term = [](const Eigen::MatrixXd& G, const Eigen::MatrixXd& S) {
-    return Eigen::MatrixXd(G * S * (S.transpose() * G * S).inverse() * S.transpose() * G);
-  };
-  const Eigen::MatrixXd H0 = S_all * S_all.transpose() * H * S_all * S_all.transpose();  // (47)
-  return H - marginal_term(H0, S_0) + marginal_term(H0, S_x0) - marginal_term(H, S_x);
+  return H - taken_away(H0, projection(n, false, dropped)) + taken_away(H0, projection(n, true, dropped)) -
+         taken_away(H, projection(n, true, {}));
 }
 
 /// A drive through random landmarks, with passive landmarks and links among them: the states that the tests

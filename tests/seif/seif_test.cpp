@@ -1,4 +1,4 @@
-#include "seif/seif_report.hpp"
+#include "seif/seif.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "allocation_counter.hpp"
+#include "dense_oracle.hpp"
+#include "seif/eif.hpp"
 #include "seif/registry.hpp"
 
 namespace seif {
@@ -77,9 +79,9 @@ class RingDrive {
   std::normal_distribution<double> noise_;
 };
 
-TEST(SeifReport, BoundsTheActiveLandmarksByThetaX) {
+TEST(Seif, BoundsTheActiveLandmarksByThetaX) {
   RingDrive drive(60, 1);
-  SeifReport filter(drive.setup(), {.theta_x = 4, .random_landmarks = 5});
+  Seif filter(drive.setup(), {.theta_x = 4, .random_landmarks = 5});
   for (int k = 0; k < 200; ++k) {
     drive.step(filter);
     EXPECT_LE(filter.counts().active_landmarks, 4);
@@ -87,11 +89,26 @@ TEST(SeifReport, BoundsTheActiveLandmarksByThetaX) {
   EXPECT_EQ(filter.map().size(), 60U);
 }
 
-TEST(SeifReport, GivesTheSameBitsForTheSameRandomStream) {
+TEST(Seif, EqualsTheDenseInformationFilterWithoutSparsificationAndWithExactMean) {
+  RingDrive drive_sparse(40, 8);
+  RingDrive drive_dense(40, 8);
+  Seif sparse(drive_sparse.setup(), {.theta_x = 1000, .mean_recovery = MeanRecovery::exact});
+  Eif dense(drive_dense.setup());
+  for (int k = 0; k < 150; ++k) {
+    drive_sparse.step(sparse);
+    drive_dense.step(dense);
+  }
+  EXPECT_LT((sparse.state().full_mu() - dense.mu()).norm(), 1e-8);
+  EXPECT_LT((oracle::symmetric(sparse.state().full_Omega()) - dense.Omega()).norm(),
+            1e-8 * dense.Omega().norm());
+  EXPECT_EQ(sparse.counts().links, dense.counts().links);
+}
+
+TEST(Seif, GivesTheSameBitsForTheSameRandomStream) {
   RingDrive drive_a(60, 2);
   RingDrive drive_b(60, 2);
-  SeifReport a(drive_a.setup(), {});
-  SeifReport b(drive_b.setup(), {});
+  Seif a(drive_a.setup(), {});
+  Seif b(drive_b.setup(), {});
   for (int k = 0; k < 150; ++k) {
     drive_a.step(a);
     drive_b.step(b);
@@ -103,7 +120,7 @@ TEST(SeifReport, GivesTheSameBitsForTheSameRandomStream) {
 /// Mean number of blocks touched by an update at the end of one round.
 double blocks_touched(int landmarks) {
   RingDrive drive(landmarks, 3);
-  SeifReport filter(drive.setup(), {});
+  Seif filter(drive.setup(), {});
   const int measured = 100;
   for (int k = 0; k < drive.steps_for_a_round() - measured; ++k) drive.step(filter);
   const std::int64_t before = filter.counts().blocks_touched;
@@ -111,15 +128,15 @@ double blocks_touched(int landmarks) {
   return static_cast<double>(filter.counts().blocks_touched - before) / measured;
 }
 
-TEST(SeifReport, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
+TEST(Seif, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
   const double small = blocks_touched(300);
   const double large = blocks_touched(20'000);
   EXPECT_NEAR(large / small, 1.0, 0.1);
 }
 
-TEST(SeifReport, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
+TEST(Seif, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
   RingDrive drive(300, 3);
-  SeifReport filter(drive.setup(), {.drop = DropOrder::weakest_link});
+  Seif filter(drive.setup(), {.drop = DropOrder::weakest_link});
   EXPECT_THROW(
       {
         for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) drive.step(filter);
@@ -127,19 +144,19 @@ TEST(SeifReport, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks
       NumericalFailure);
 }
 
-TEST(SeifReport, AllocatesNothingOnceTheMapIsBuilt) {
+TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
   RingDrive drive(60, 4);
-  SeifReport filter(drive.setup(), {});
+  Seif filter(drive.setup(), {});
   for (int k = 0; k < 3 * drive.steps_for_a_round(); ++k) drive.step(filter);
   const long before = allocations();
   for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
   EXPECT_EQ(allocations(), before);
 }
 
-TEST(SeifReport, TakesEmptyScansAndAWorldWithoutLandmarks) {
+TEST(Seif, TakesEmptyScansAndAWorldWithoutLandmarks) {
   RingDrive drive(60, 5);
-  SeifReport filter(drive.setup(), {});
+  Seif filter(drive.setup(), {});
   filter.measurement_update({.t = 0.0, .observations = {}}, ignore);
   EXPECT_TRUE(filter.map().empty());
   EXPECT_EQ(filter.counts().links, 0);
@@ -149,7 +166,7 @@ TEST(Registry, RefusesASecondTypeOfTheSameName) {
   Registry registry = standard_estimators();
   EXPECT_NE(registry.find("seif_report"), nullptr);
   EXPECT_EQ(registry.find("no_such_filter"), nullptr);
-  EXPECT_THROW(registry.add(seif_report_type()), std::invalid_argument);
+  EXPECT_THROW(registry.add(*registry.find("ekf")), std::invalid_argument);
 }
 
 TEST(Registry, MakesEveryStandardEstimatorFromItsDefaults) {

@@ -1,0 +1,44 @@
+#include "seif/seif.hpp"
+
+#include "seif/marginals.hpp"
+#include "seif/mean_recovery.hpp"
+#include "seif/measurement_update.hpp"
+#include "seif/motion_update.hpp"
+
+namespace seif {
+
+Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
+    : state_(setup.start), options_(options), T_robot_sensor_(setup.T_robot_sensor), random_(setup.random) {}
+
+void Seif::motion_update(const Odometry& odometry) { seif::motion_update(state_, odometry); }
+
+void Seif::measurement_update(const Scan& scan, const StageDone& done) {
+  seif::measurement_update(state_, scan.observations, T_robot_sensor_);
+  done(Stage::measurement);
+
+  if (const int surplus = state_.active_count() - options_.theta_x; surplus > 0) {
+    choose_to_drop(state_, options_.drop, surplus, to_drop_);
+    if (!sparsify(state_, options_.rule, to_drop_)) throw NumericalFailure("sparsification", scan.t);
+  }
+  done(Stage::sparsification);
+
+  const bool recovered = options_.mean_recovery == MeanRecovery::exact
+                             ? solve_mean(state_)
+                             : coordinate_descent(state_, options_.random_landmarks, random_);
+  if (!recovered) throw NumericalFailure("mean recovery", scan.t);
+  done(Stage::mean_recovery);
+}
+
+Counts Seif::counts() const {
+  return {.blocks_touched = state_.blocks_touched(),
+          .active_landmarks = state_.active_count(),
+          .links = state_.link_count()};
+}
+
+std::vector<LandmarkEstimate> Seif::map() const { return map_of(state_); }
+
+std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
+  return marginals_of(state_, landmarks);
+}
+
+}  // namespace seif
