@@ -1,0 +1,127 @@
+#include "worlds/geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "worlds/path.hpp"
+
+namespace worlds {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double tolerance = 1e-12;  // [m] rounding at metre scale
+
+/// The least distance over a fine raster of the rectangle: an upper bound, close for points not far away.
+double sampled_distance(const Vector2d& p, const Rectangle& r, int steps) {
+  const Vector2d side(-r.axis.y(), r.axis.x());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = -steps; i <= steps; ++i) {
+    for (int k = -steps; k <= steps; ++k) {
+      const Vector2d q = r.centre + r.axis * r.half.x() * i / steps + side * r.half.y() * k / steps;
+      nearest = std::min(nearest, (p - q).norm());
+    }
+  }
+  return nearest;
+}
+
+TEST(Distance, OfAPointAndABoxIsToTheNearestPointOfTheBox) {
+  const Rectangle box = rectangle(Box{{{1, 2}, 30 * degree}, {4, 2}, 1.0});
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> coordinate(-6, 6);
+  for (int i = 0; i < 30; ++i) {
+    const Vector2d p(coordinate(random), coordinate(random));
+    const double exact = distance(p, box);
+    const double sampled = sampled_distance(p, box, 50);
+    EXPECT_LE(exact, sampled + tolerance);
+    EXPECT_NEAR(exact, sampled, 0.025);  // half the diagonal of a raster cell of 0.04 m x 0.02 m
+  }
+  EXPECT_EQ(distance(Vector2d(1.1, 2.1), box), 0.0);
+}
+
+TEST(Distance, OfAPointAndASegmentIsToItsInsideOrItsEnds) {
+  const Segment segment{{0, 0}, {10, 0}};
+  EXPECT_NEAR(distance(Vector2d(5, 3), segment), 3, tolerance);
+  EXPECT_NEAR(distance(Vector2d(-3, 4), segment), 5, tolerance);
+  EXPECT_NEAR(distance(Vector2d(13, -4), segment), 5, tolerance);
+  EXPECT_NEAR(distance(Vector2d(3, 4), Segment{{0, 0}, {0, 0}}), 5, tolerance);
+}
+
+TEST(Distance, OfAPointAndAPolylineCountsTheClosingLegOfAClosedOne) {
+  const std::vector<Vector2d> corners = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  EXPECT_NEAR(distance(Vector2d(-1, 2), corners, true), 1, tolerance);
+  EXPECT_NEAR(distance(Vector2d(-1, 2), corners, false), std::sqrt(5), tolerance);
+  EXPECT_NEAR(distance(Vector2d(0, 1), {{0, 0}}, false), 1, tolerance);
+}
+
+TEST(Distance, OfSegmentsIsZeroWhereTheyMeet) {
+  EXPECT_EQ(distance(Segment{{-1, -1}, {1, 1}}, Segment{{-1, 1}, {1, -1}}), 0.0);
+  EXPECT_EQ(distance(Segment{{0, 0}, {1, 0}}, Segment{{1, 0}, {2, 5}}), 0.0);
+  EXPECT_NEAR(distance(Segment{{0, 0}, {1, 0}}, Segment{{0, 2}, {1, 1}}), 1, tolerance);
+  EXPECT_NEAR(distance(Segment{{0, 0}, {1, 0}}, Segment{{3, 0}, {4, 0}}), 2, tolerance);
+}
+
+TEST(Distance, OfASegmentAndABoxIsZeroInsideAndAcross) {
+  const Rectangle box{{0, 0}, {1, 0}, {2, 1}};
+  EXPECT_EQ(distance(Segment{{-0.5, 0}, {0.5, 0}}, box), 0.0);
+  EXPECT_EQ(distance(Segment{{-5, 0}, {5, 0}}, box), 0.0);
+  EXPECT_NEAR(distance(Segment{{-5, 3}, {5, 3}}, box), 2, tolerance);
+  EXPECT_NEAR(distance(Segment{{5, 5}, {6, 6}}, box), 5, tolerance);
+}
+
+TEST(Legs, LeaveOutThoseOfNoLength) {
+  const std::vector<Vector2d> points = {{0, 0}, {0, 0}, {1, 0}, {1, 1}};
+  EXPECT_EQ(legs(points, false).size(), 2U);
+  EXPECT_EQ(legs(points, true).size(), 3U);
+  EXPECT_TRUE(legs({{1, 1}}, true).empty());
+  EXPECT_NEAR(length(points, true), 2 + std::numbers::sqrt2, tolerance);
+}
+
+TEST(Serpentine, CoversTheRectangleInLanesNoFurtherApartThanAsked) {
+  const Vector2d min(-3, 1);
+  const Vector2d max(7, 8);
+  for (const double lane : {0.7, 2.0, 3.5, 7.0, 100.0}) {
+    const auto path = serpentine(min, max, lane);
+    EXPECT_EQ(path.front(), min);
+    EXPECT_EQ(path.back().y(), max.y());
+    for (double x = min.x(); x <= max.x(); x += 0.5) {
+      for (double y = min.y(); y <= max.y(); y += 0.25) {
+        EXPECT_LE(distance(Vector2d(x, y), path, false), std::min(lane, 7.0) / 2 + tolerance);
+      }
+    }
+    for (const Segment& leg : legs(path, false)) {
+      EXPECT_TRUE(leg.from.x() == leg.to.x() || leg.from.y() == leg.to.y());
+      EXPECT_LE(std::abs(leg.to.y() - leg.from.y()), lane + tolerance);
+    }
+  }
+  EXPECT_EQ(serpentine(min, max, 0.7).size(),
+            22U);  // ten gaps, although 7 / 0.7 is more than 10 in floating point
+}
+
+TEST(DrivenPath, FollowsCommandsAsAUnicycleDoes) {
+  World world;
+  world.duration = 10;
+  world.robot.start = {{1, 2}, std::numbers::pi / 2};
+  world.drive.mode = DriveMode::commands;
+  // A straight metre, then half a circle of radius 1 to the left, then nothing.
+  world.drive.commands = {{0, 0.5, 0}, {2, 0.5, 0.5}, {2 + 2 * std::numbers::pi, 0, 0}};
+  const auto path = driven_path(world);
+  // The steps are chords of 0.05 rad: 1 / (sin(x/2) / (x/2)) - 1 of a circle's radius, 1e-4.
+  EXPECT_NEAR(path.back().x(), -1, 1e-3);
+  EXPECT_NEAR(path.back().y(), 3, 1e-3);
+}
+
+TEST(DrivenPath, LeadsFromTheStartAlongThePathAndBackIfClosed) {
+  World world;
+  world.robot.start.position = {9, 9};
+  world.drive.mode = DriveMode::loop;
+  world.drive.path = {{0, 0}, {1, 0}, {1, 1}};
+  world.drive.closed = true;
+  EXPECT_EQ(driven_path(world), (std::vector<Vector2d>{{9, 9}, {0, 0}, {1, 0}, {1, 1}, {0, 0}}));
+}
+
+}  // namespace
+}  // namespace worlds

@@ -1,0 +1,76 @@
+// What the tests of world files share: files that last as long as a test, and estimators that are none.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "worlds/load.hpp"
+
+namespace worlds::test {
+
+/// A folder of its own, gone with the object.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "worlds_test_XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path write(const std::string& name, std::string_view text) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Stand-ins with the names and some of the options of the real ones.
+inline EstimatorSchemas fake_estimators() {
+  EstimatorSchemas schemas;
+  schemas["ekf"] = [](Fields&, std::map<std::string, OptionValue>&) {};
+  schemas["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
+    std::int64_t theta_x = 6;
+    std::int64_t recovered = 10;
+    fields.integer("theta_x", theta_x, at_least(1), "active landmarks");
+    fields.integer("K", recovered, at_least(0), "landmarks recovered beside the active ones");
+    options["theta_x"] = theta_x;
+    options["K"] = recovered;
+  };
+  return schemas;
+}
+
+inline std::filesystem::path gallery_file(const std::string& name) {
+  return std::filesystem::path(SEIFBED_SOURCE_DIR) / "worlds" / (name + ".yaml");
+}
+
+inline const std::vector<std::string>& gallery() {
+  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",     "orchard",
+                                                 "forest",    "walls",      "slippery", "umbmark"};
+  return names;
+}
+
+/// The messages, a line for each.
+inline std::string text_of(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += to_string(problem) + '\n';
+  return text;
+}
+
+inline LoadResult load_text(const Folder& folder, std::string_view text,
+                            const std::vector<std::string>& overrides = {}) {
+  return load_world(folder.write("world.yaml", text), overrides, fake_estimators());
+}
+
+}  // namespace worlds::test

@@ -1,0 +1,244 @@
+#include "worlds/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "worlds/geometry.hpp"
+#include "worlds/point_grid.hpp"
+#include "worlds/shape_grid.hpp"
+
+namespace worlds {
+namespace {
+
+/// Whether one path is the other or leads to it.
+bool on_one_path(std::string_view a, std::string_view b) {
+  const std::string_view shorter = a.size() < b.size() ? a : b;
+  const std::string_view longer = a.size() < b.size() ? b : a;
+  return longer.starts_with(shorter) && (longer.size() == shorter.size() || longer[shorter.size()] == '.');
+}
+
+/// Where the solid things of a world stand in its file, in the order of solid_rectangles.
+std::vector<std::string> names_of_solids(const World& world) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < world.boxes.size(); ++i) names.push_back(fmt::format("obstacles.boxes.{}", i));
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const std::size_t count = legs(world.walls[i].points, world.walls[i].closed).size();
+    names.insert(names.end(), count, fmt::format("obstacles.walls.{}", i));
+  }
+  return names;
+}
+
+/// A check of one world: what it is about, and where problems go.
+struct Check {
+  const Node& document;
+  const World& world;
+  std::vector<Problem>& problems;
+  std::vector<Rectangle> solids;
+  std::vector<std::string> solid_names;
+
+  bool sound(const std::vector<std::string_view>& sections) const { return is_sound(problems, sections); }
+
+  void refuse(std::string_view path, std::string message) const {
+    refuse_value(document, path, std::move(message), problems);
+  }
+
+  void refuse_landmark(std::size_t index, std::string message) const {
+    refuse(fmt::format("landmarks.placed.{}", index), std::move(message));
+  }
+};
+
+void check_rates(const Check& check) {
+  const int step_rate = check.world.physics.step_rate;
+  const auto check_rate = [&](std::string_view path, int rate) {
+    if (!check.sound({path, "physics.step_rate_hz"}) || step_rate % rate == 0) return;
+    check.refuse(path,
+                 fmt::format("the rate must divide physics.step_rate_hz, which is {} Hz; {} Hz does not",
+                             step_rate, rate));
+  };
+  check_rate("sensors.encoders.rate_hz", check.world.encoders.rate);
+  check_rate("sensors.landmark_sensor.rate_hz", check.world.landmark_sensor.rate);
+}
+
+void check_pose_source(const Check& check) {
+  if (!check.sound({"drive.pose_from", "estimators"})) return;
+  std::vector<std::string> names = {"truth", "odometry"};
+  for (const EstimatorChoice& choice : check.world.estimators) names.push_back(choice.name);
+  const std::string& name = check.world.drive.pose_from;
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  check.refuse("drive.pose_from",
+               fmt::format("'pose_from' must be truth, odometry or one of the estimators, not '{}'{}", name,
+                           suggestion(name, names)));
+}
+
+void check_speed(const Check& check) {
+  const Drive& drive = check.world.drive;
+  const bool cruises = drive.mode != DriveMode::hold && drive.mode != DriveMode::commands;
+  if (!cruises || !check.sound({"drive", "robot"}) || drive.speed <= check.world.robot.max_speed) return;
+  check.refuse("drive.speed_m_s", fmt::format("the speed is more than robot.max_speed_m_s, which is {} m/s",
+                                              check.world.robot.max_speed));
+}
+
+void check_start(const Check& check) {
+  if (!check.sound({"robot", "ground", "obstacles"})) return;
+  const Eigen::Vector2d& start = check.world.robot.start.position;
+  const double radius = footprint_radius(check.world.robot);
+  if (!on_ground(start, radius, check.world.ground_size)) {
+    check.refuse(
+        "robot.start",
+        fmt::format("the robot, which reaches {:.3f} m around its axle, starts off the ground", radius));
+  }
+  for (std::size_t i = 0; i < check.solids.size(); ++i) {
+    if (distance(start, check.solids[i]) >= radius) continue;
+    check.refuse("robot.start",
+                 fmt::format("the robot, which reaches {:.3f} m around its axle, starts inside of {}", radius,
+                             check.solid_names[i]));
+    return;
+  }
+}
+
+/// Corners of the path first, then its legs: a leg is only worth a word if both of its ends are good.
+void check_path(const Check& check) {
+  const Drive& drive = check.world.drive;
+  if (drive.path.empty() || !check.sound({"drive", "robot", "ground", "obstacles"})) return;
+  const bool has_corners = drive.mode != DriveMode::serpentine;
+  const double half_width = 0.5 * check.world.robot.track;
+  for (std::size_t i = 0; i < drive.path.size(); ++i) {
+    const Eigen::Vector2d& p = drive.path[i];
+    const std::string path = has_corners ? fmt::format("drive.waypoints_m.{}", i) : "drive";
+    const std::string corner = fmt::format("the path's corner [{}, {}]", p.x(), p.y());
+    if (!on_ground(p, half_width, check.world.ground_size)) {
+      check.refuse(path, corner + " is off the ground, or too close to its edge for the robot");
+    }
+    for (std::size_t k = 0; k < check.solids.size(); ++k) {
+      if (distance(p, check.solids[k]) >= half_width) continue;
+      check.refuse(path, fmt::format("{} is inside of {}, or too close to it for the robot", corner,
+                                     check.solid_names[k]));
+      break;
+    }
+  }
+  if (!check.sound({"drive"})) return;
+  const std::vector<Segment> path_legs = legs(drive.path, drive.closed);
+  for (std::size_t i = 0; i < path_legs.size(); ++i) {
+    const auto& [from, to] = path_legs[i];
+    for (std::size_t k = 0; k < check.solids.size(); ++k) {
+      if (distance(path_legs[i], check.solids[k]) >= half_width) continue;
+      check.refuse(has_corners ? fmt::format("drive.waypoints_m.{}", i) : "drive",
+                   fmt::format("the path from [{}, {}] to [{}, {}] meets {}", from.x(), from.y(), to.x(),
+                               to.y(), check.solid_names[k]));
+      break;
+    }
+  }
+}
+
+void check_landmarks_alone(const Check& check) {
+  const std::vector<Landmark>& landmarks = check.world.landmarks;
+  PointGrid grid(2 * largest_radius(landmarks));
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Landmark& landmark = landmarks[i];
+    if (!on_ground(landmark.position, landmark.radius, check.world.ground_size)) {
+      check.refuse_landmark(i, "the landmark is not wholly on the ground");
+    }
+    grid.any_near(landmark.position, [&](std::size_t other, const Eigen::Vector2d& p) {
+      if ((landmark.position - p).norm() >= landmark.radius + landmarks[other].radius) return false;
+      check.refuse_landmark(i, fmt::format("the landmark overlaps landmarks.placed.{}", other));
+      return true;
+    });
+    grid.add(landmark.position);
+  }
+}
+
+void check_landmarks_in_obstacles(const Check& check) {
+  const std::vector<Landmark>& landmarks = check.world.landmarks;
+  const double largest = largest_radius(landmarks);
+  ShapeGrid solids(check.world.ground_size, largest);
+  for (const Rectangle& solid : check.solids) solids.add(solid, largest);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Landmark& landmark = landmarks[i];
+    solids.any_near(landmark.position, [&](std::size_t solid, const Rectangle& shape) {
+      if (distance(landmark.position, shape) >= landmark.radius) return false;
+      check.refuse_landmark(i, fmt::format("the landmark is inside of {}", check.solid_names[solid]));
+      return true;
+    });
+  }
+}
+
+void check_landmarks_at_start(const Check& check) {
+  const std::vector<Landmark>& landmarks = check.world.landmarks;
+  const double reach = footprint_radius(check.world.robot);
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const double apart = (landmarks[i].position - check.world.robot.start.position).norm();
+    if (apart >= reach + landmarks[i].radius) continue;
+    check.refuse_landmark(
+        i,
+        fmt::format("the landmark is where the robot starts, which reaches {:.3f} m around its axle", reach));
+  }
+}
+
+void check_landmarks_on_path(const Check& check) {
+  const std::vector<Landmark>& landmarks = check.world.landmarks;
+  const double half_width = 0.5 * check.world.robot.track;
+  const double reach = half_width + largest_radius(landmarks);
+  ShapeGrid path(check.world.ground_size, reach);
+  for (const Segment& leg : legs(check.world.drive.path, check.world.drive.closed)) {
+    path.add(rectangle(leg, 0.0), reach);
+  }
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Landmark& landmark = landmarks[i];
+    const bool on_path = path.any_near(landmark.position, [&](std::size_t, const Rectangle& leg) {
+      return distance(landmark.position, leg) < landmark.radius + half_width;
+    });
+    if (on_path)
+      check.refuse_landmark(i, "the landmark stands in the way: the robot's path leads through it");
+  }
+}
+
+void check_landmarks(const Check& check) {
+  if (check.world.landmarks.empty() || !check.sound({"landmarks.placed", "ground"})) return;
+  const bool obstacles_known = check.sound({"obstacles"});
+  const bool start_known = check.sound({"robot"});
+  const bool path_known = check.sound({"drive", "robot"});
+  check_landmarks_alone(check);
+  if (obstacles_known) check_landmarks_in_obstacles(check);
+  if (start_known) check_landmarks_at_start(check);
+  if (path_known) check_landmarks_on_path(check);
+}
+
+}  // namespace
+
+bool is_sound(const std::vector<Problem>& problems, const std::vector<std::string_view>& sections) {
+  return std::none_of(problems.begin(), problems.end(), [&](const Problem& problem) {
+    return std::any_of(sections.begin(), sections.end(),
+                       [&](std::string_view section) { return on_one_path(problem.path, section); });
+  });
+}
+
+void refuse_value(const Node& document, std::string_view path, std::string message,
+                  std::vector<Problem>& problems) {
+  const Node* node = nullptr;
+  for (std::string_view at = path; node == nullptr;) {
+    node = find_path(document, at);
+    const std::size_t dot = at.rfind('.');
+    at = dot == std::string_view::npos ? std::string_view() : at.substr(0, dot);
+  }
+  problems.push_back({node->where, std::move(message), std::string(path)});
+}
+
+void check_world(const Node& document, const World& world, std::vector<Problem>& problems) {
+  Check check{document, world, problems, {}, {}};
+  if (is_sound(problems, {"obstacles"})) {
+    check.solids = solid_rectangles(world);
+    check.solid_names = names_of_solids(world);
+  }
+  check_rates(check);
+  check_pose_source(check);
+  check_speed(check);
+  check_start(check);
+  check_path(check);
+  check_landmarks(check);
+}
+
+}  // namespace worlds

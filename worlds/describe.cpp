@@ -1,0 +1,414 @@
+#include "worlds/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace worlds {
+namespace {
+
+// Limits that keep a slip of the finger from asking for more than a machine has.
+constexpr double longest_duration = 1e6;   // [s]
+constexpr double largest_ground = 1e5;     // [m]
+constexpr double largest_height = 1e3;     // [m]
+constexpr double smallest_radius = 1e-3;   // [m] of a landmark
+constexpr double largest_radius = 100;     // [m] of a landmark
+constexpr double most_landmarks = 1e7;     // [-] of one generator
+constexpr double highest_step_rate = 1e4;  // [Hz]
+constexpr double most_tries = 1e6;         // [-]
+
+constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
+                                                        "serpentine", "explore",   "commands"};
+constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_disk", "grid",
+                                                           "ring",    "clusters",     "corridor"};
+
+/// The enumerator whose name stands at its own index. The first one for a name that is none: that was a
+/// problem.
+template <class Enum, std::size_t N>
+Enum enum_of(const std::array<std::string_view, N>& names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? Enum{} : static_cast<Enum>(found - names.begin());
+}
+
+template <class Enum, std::size_t N>
+std::string name_of(const std::array<std::string_view, N>& names, Enum value) {
+  return std::string(names.at(static_cast<std::size_t>(value)));
+}
+
+/// Where something can be.
+Range coordinate() { return between(-largest_ground, largest_ground); }
+
+void check_corners(Fields& fields, const Eigen::Vector2d& min, const Eigen::Vector2d& max) {
+  if (fields.sound() && (min.array() >= max.array()).any()) {
+    fields.problem("max_m", "'max_m' must be more than 'min_m' in x and in y");
+  }
+}
+
+void describe_placement(Fields& fields, Placement& placement, Need need) {
+  fields.number("x_m", placement.position.x(), coordinate(), "east", need);
+  fields.number("y_m", placement.position.y(), coordinate(), "north", need);
+  fields.angle("heading_deg", placement.heading, between(-360, 360), "counter-clockwise from east");
+  placement.heading = std::remainder(placement.heading, 360 * degree);
+  if (placement.heading <= -180 * degree) placement.heading = 180 * degree;
+}
+
+void check_robot(Fields& fields, const Robot& robot) {
+  if (!fields.sound()) return;
+  if (2 * robot.wheel_mass >= robot.mass) {
+    fields.problem("wheel_mass_kg", "the wheels must weigh less than the robot of which they are a part");
+  }
+  if (robot.track <= 2 * robot.wheel_radius) {
+    fields.problem("track_m", "the track must be more than two wheel radii, or the wheels would touch");
+  }
+  if (robot.caster.radius > robot.wheel_radius) {
+    fields.problem("caster", "the caster's radius must be at most that of the wheels, or it does not fit");
+  }
+  if (std::abs(robot.caster.offset) < robot.caster.radius) {
+    fields.problem("caster",
+                   "the caster must be its radius or more away from the axle, or the robot topples");
+  }
+}
+
+void describe_robot(Fields& fields, Robot& robot) {
+  fields.section("start", "where the middle of the axle is at the start",
+                 [&](Fields& inner) { describe_placement(inner, robot.start, Need::defaulted); });
+  fields.number("mass_kg", robot.mass, more_than_up_to(0, 1000), "mass of the whole robot");
+  fields.number("wheel_mass_kg", robot.wheel_mass, at_least(0.1), "mass of one wheel");
+  fields.number("wheel_radius_m", robot.wheel_radius, between(0.02, 1), "radius of the wheels");
+  fields.number("track_m", robot.track, between(0.05, 5), "distance between the wheels' contact points");
+  fields.number("motor_torque_nm", robot.motor_torque, more_than(0), "the most that one wheel's motor gives");
+  fields.number("max_speed_m_s", robot.max_speed, more_than_up_to(0, 10), "highest speed");
+  fields.angle("max_turn_rate_deg_s", robot.max_turn_rate, more_than(0), "highest turn rate");
+  fields.number("max_acceleration_m_s2", robot.max_acceleration, more_than(0), "highest acceleration");
+  fields.angle("max_turn_acceleration_deg_s2", robot.max_turn_acceleration, more_than(0),
+               "highest acceleration of the turn rate");
+  fields.section("caster", "the frictionless third support", [&](Fields& inner) {
+    inner.number("offset_m", robot.caster.offset, between(-5, 5), "forward of the axle; negative is behind");
+    inner.number("radius_m", robot.caster.radius, more_than(0), "radius");
+  });
+  check_robot(fields, robot);
+}
+
+void describe_physics(Fields& fields, Physics& physics) {
+  fields.integer("step_rate_hz", physics.step_rate, between(50, highest_step_rate), "physics steps");
+  fields.number("friction", physics.friction, between(0, 10), "between wheels and ground");
+  fields.list(
+      "patches", physics.patches,
+      [](Fields& inner, FrictionPatch& patch) {
+        inner.vector2("min_m", patch.min, coordinate(), "lower left corner", Need::required);
+        inner.vector2("max_m", patch.max, coordinate(), "upper right corner", Need::required);
+        inner.number("friction", patch.friction, between(0, 10), "between wheels and ground");
+        check_corners(inner, patch.min, patch.max);
+      },
+      "rectangles of the ground with a friction of their own; the later one counts");
+}
+
+void describe_landmark(Fields& fields, Landmark& landmark) {
+  fields.number("x_m", landmark.position.x(), coordinate(), "east", Need::required);
+  fields.number("y_m", landmark.position.y(), coordinate(), "north", Need::required);
+  fields.number("radius_m", landmark.radius, between(smallest_radius, largest_radius), "radius");
+}
+
+void describe_region(Fields& fields, Generator& generator, const Eigen::Vector2d& ground_size) {
+  generator.min = -0.5 * ground_size;
+  generator.max = 0.5 * ground_size;
+  fields.section("region", "where the landmarks stand; the whole ground if it is not said",
+                 [&](Fields& inner) {
+                   inner.vector2("min_m", generator.min, coordinate(), "lower left corner", Need::optional);
+                   inner.vector2("max_m", generator.max, coordinate(), "upper right corner", Need::optional);
+                   check_corners(inner, generator.min, generator.max);
+                   const Eigen::Array2d edge = 0.5 * ground_size.array();
+                   if (inner.sound() &&
+                       ((generator.min.array() < -edge).any() || (generator.max.array() > edge).any())) {
+                     inner.problem("", "the region must lie on the ground");
+                   }
+                 });
+}
+
+void describe_count(Fields& fields, Generator& generator) {
+  fields.integer("count", generator.count, between(1, most_landmarks), "landmarks to place", Need::optional);
+  fields.number("density_per_m2", generator.density, more_than(0),
+                "landmarks to place, for each square metre", Need::optional);
+  if (fields.sound() && (generator.count > 0) == (generator.density > 0)) {
+    fields.problem(generator.count > 0 ? "density_per_m2" : "",
+                   "exactly one of 'count' and 'density_per_m2' must be given");
+  }
+}
+
+void describe_fixed_places(Fields& fields, Generator& generator) {
+  fields.number("jitter_m", generator.jitter, at_least(0),
+                "random shift of each place, at most, in x and in y");
+  fields.boolean("skip_blocked", generator.skip_blocked, "leave out places that are not free");
+}
+
+void describe_corridor(Fields& fields, Generator& generator) {
+  fields.points("points_m", generator.points, coordinate(), 2,
+                "the line; the path of the drive if it is not said", Need::optional);
+  fields.boolean("closed", generator.closed, "from the last point back to the first");
+  fields.number("offset_m", generator.offset, more_than(0), "from the line to the landmarks on either side");
+  fields.number("spacing_m", generator.spacing, more_than(0), "along the line");
+  describe_fixed_places(fields, generator);
+}
+
+std::vector<Fields::Case> generator_cases(Generator& generator, const Eigen::Vector2d& ground_size) {
+  const auto region_and_count = [&generator, ground_size](Fields& fields) {
+    describe_region(fields, generator, ground_size);
+    describe_count(fields, generator);
+  };
+  return {
+      {"uniform", "anywhere in the region", region_and_count},
+      {"poisson_disk", "anywhere in the region, but not close to each other",
+       [&, region_and_count](Fields& fields) {
+         fields.number("distance_m", generator.distance, more_than(0), "at least, between centres");
+         region_and_count(fields);
+       }},
+      {"grid", "in the middle of each cell of a grid",
+       [&, ground_size](Fields& fields) {
+         fields.vector2("cell_m", generator.cell, more_than(0), "size of a cell", Need::required);
+         describe_region(fields, generator, ground_size);
+         describe_fixed_places(fields, generator);
+       }},
+      {"ring", "evenly around a circle",
+       [&](Fields& fields) {
+         fields.vector2("centre_m", generator.centre, coordinate(), "centre of the circle");
+         fields.number("ring_radius_m", generator.ring_radius, more_than(0), "radius of the circle");
+         fields.integer("count", generator.count, between(1, most_landmarks), "landmarks to place",
+                        Need::required);
+         describe_fixed_places(fields, generator);
+       }},
+      {"clusters", "around points anywhere in the region",
+       [&, region_and_count](Fields& fields) {
+         fields.integer("clusters", generator.clusters, between(1, most_landmarks), "how many clusters");
+         fields.number("cluster_sd_m", generator.cluster_sd, more_than(0), "standard deviation of a cluster");
+         region_and_count(fields);
+       }},
+      {"corridor", "on both sides along a line",
+       [&](Fields& fields) { describe_corridor(fields, generator); }},
+  };
+}
+
+void describe_generator(Fields& fields, Generator& generator, const Eigen::Vector2d& ground_size) {
+  std::string pattern;
+  fields.variant("type", pattern, generator_cases(generator, ground_size), "pattern", Need::required);
+  generator.pattern = enum_of<Pattern>(pattern_names, pattern);
+  fields.number("radius_m", generator.radius, between(smallest_radius, largest_radius),
+                "radius of each landmark");
+  fields.integer("max_tries", generator.max_tries, between(1, most_tries), "tries to place each landmark");
+  fields.section("clear_m", "how far the surface of a landmark stays from other things", [&](Fields& inner) {
+    inner.number("walls", generator.clear.walls, at_least(0), "from the surfaces of walls and boxes");
+    inner.number("path", generator.clear.path, at_least(0), "from the line that the robot is meant to drive");
+    inner.number("landmarks", generator.clear.landmarks, at_least(0), "from the surfaces of other landmarks");
+  });
+}
+
+void describe_box(Fields& fields, Box& box) {
+  describe_placement(fields, box.centre, Need::required);
+  fields.vector2("size_m", box.size, more_than_up_to(0, largest_ground), "along its own x and y",
+                 Need::required);
+  fields.number("height_m", box.height, more_than_up_to(0, largest_height), "height");
+}
+
+void describe_wall(Fields& fields, Wall& wall) {
+  fields.points("points_m", wall.points, coordinate(), 2, "corners", Need::required);
+  fields.number("thickness_m", wall.thickness, more_than_up_to(0, largest_ground), "thickness");
+  fields.number("height_m", wall.height, more_than_up_to(0, largest_height), "height");
+  fields.boolean("closed", wall.closed, "from the last point back to the first");
+  const std::size_t expected = wall.points.size() - (wall.closed ? 0 : 1);
+  if (fields.sound() && !wall.points.empty() && legs(wall.points, wall.closed).size() != expected) {
+    fields.problem("points_m", wall.closed
+                                   ? "two corners in a row are equal (a closed wall returns by itself)"
+                                   : "two corners in a row are equal");
+  }
+}
+
+void describe_pursuit(Fields& fields, Drive& drive) {
+  fields.number("speed_m_s", drive.speed, more_than(0), "cruising speed");
+  fields.number("lookahead_m", drive.lookahead, more_than(0), "of the pure pursuit");
+}
+
+void describe_waypoints(Fields& fields, Drive& drive, bool closed) {
+  const std::size_t min_count = closed ? 3 : 1;
+  describe_pursuit(fields, drive);
+  fields.points("waypoints_m", drive.path, coordinate(), min_count, "corners of the path", Need::required);
+  const std::size_t expected = drive.path.size() - (closed ? 0 : 1);
+  if (fields.sound() && drive.path.size() > 1 && legs(drive.path, closed).size() != expected) {
+    fields.problem("waypoints_m", closed ? "two waypoints in a row are equal (a loop returns by itself)"
+                                         : "two waypoints in a row are equal");
+  }
+}
+
+void describe_serpentine(Fields& fields, Drive& drive, SerpentineArea& area) {
+  constexpr double most_lanes = 1e4;
+  describe_pursuit(fields, drive);
+  fields.vector2("min_m", area.min, coordinate(), "lower left corner of the area", Need::required);
+  fields.vector2("max_m", area.max, coordinate(), "upper right corner of the area", Need::required);
+  fields.number("lane_m", area.lane, more_than(0), "at most, from lane to lane");
+  fields.boolean("closed", drive.closed, "back to the first lane, and again");
+  check_corners(fields, area.min, area.max);
+  if (fields.sound() && area.max.y() - area.min.y() > most_lanes * area.lane) {
+    fields.problem("lane_m", fmt::format("these are more than {} lanes", most_lanes));
+  }
+}
+
+std::vector<Fields::Case> drive_cases(Drive& drive, SerpentineArea& area) {
+  return {
+      {"hold", "stand still", [](Fields&) {}},
+      {"waypoints", "follow a path to its end",
+       [&](Fields& fields) { describe_waypoints(fields, drive, false); }},
+      {"loop", "follow a closed path round and round",
+       [&](Fields& fields) { describe_waypoints(fields, drive, true); }},
+      {"serpentine", "cover a rectangle in lanes",
+       [&](Fields& fields) { describe_serpentine(fields, drive, area); }},
+      {"explore", "drive at random, clear of everything",
+       [&](Fields& fields) {
+         describe_pursuit(fields, drive);
+         fields.number("clearance_m", drive.clearance, more_than(0),
+                       "from the robot's centre to anything solid");
+       }},
+      {"commands", "recorded velocities",
+       [&](Fields& fields) {
+         fields.text("file", drive.commands_file,
+                     "CSV with the head t,v,omega [s, m/s, rad/s]; a path relative to the world file",
+                     Need::required);
+       }},
+  };
+}
+
+void describe_drive(Fields& fields, Drive& drive, SerpentineArea& area) {
+  std::string mode = name_of(mode_names, drive.mode);
+  fields.variant("mode", mode, drive_cases(drive, area), "what the robot does");
+  drive.mode = enum_of<DriveMode>(mode_names, mode);
+  drive.closed = drive.closed || drive.mode == DriveMode::loop;
+  fields.text("pose_from", drive.pose_from,
+              "whose pose steers: truth, odometry, or the name of an estimator");
+}
+
+void describe_encoders(Fields& fields, Encoders& encoders) {
+  fields.integer("rate_hz", encoders.rate, between(1, highest_step_rate),
+                 "odometry; divides physics.step_rate_hz");
+  fields.integer("ticks_per_revolution", encoders.ticks_per_revolution, between(0, 1e9),
+                 "resolution; 0: no quantisation");
+  fields.number("distance_sd_m_per_sqrt_m", encoders.distance_sd, at_least(0),
+                "random error of one wheel after 1 m rolled");
+  fields.number("diameter_ratio", encoders.diameter_ratio, between(0.5, 2),
+                "right over left wheel diameter, actual over assumed");
+  fields.number("track_ratio", encoders.track_ratio, between(0.5, 2), "actual over assumed track");
+  fields.number("diameter_ratio_sd", encoders.diameter_ratio_sd, between(0, 0.1),
+                "of the part of the diameter ratio that is drawn from the seed");
+  fields.number("track_ratio_sd", encoders.track_ratio_sd, between(0, 0.1),
+                "of the part of the track ratio that is drawn from the seed");
+  fields.boolean("calibrated", encoders.calibrated, "no systematic error, whatever the ratios say");
+}
+
+void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
+  fields.integer("rate_hz", sensor.rate, between(1, highest_step_rate),
+                 "scans; divides physics.step_rate_hz");
+  fields.section("mount", "where the sensor sits on the robot, from the middle of the axle",
+                 [&](Fields& inner) { describe_placement(inner, sensor.mount, Need::defaulted); });
+  fields.number("max_range_m", sensor.max_range, more_than_up_to(0, largest_ground),
+                "to a landmark's centre");
+  fields.angle("fov_deg", sensor.fov, more_than_up_to(0, 360), "full angle, centred on the sensor's x");
+  fields.number("range_sd_m", sensor.range_sd, more_than(0), "standard deviation of a range");
+  fields.number("range_sd_per_m", sensor.range_sd_per_m, at_least(0),
+                "what is added to it for each metre of range, in quadrature");
+  fields.angle("bearing_sd_deg", sensor.bearing_sd, more_than(0), "standard deviation of a bearing");
+  fields.number("miss_probability", sensor.miss_probability, between(0, 1),
+                "that a visible landmark is not reported");
+  fields.number("false_detections_per_scan", sensor.false_detections, between(0, 1000),
+                "mean number (Poisson)");
+}
+
+void describe_estimator(Fields& fields, EstimatorChoice& choice, const EstimatorSchemas& schemas) {
+  std::vector<Fields::Case> cases;
+  std::vector<std::string> types;
+  for (const auto& [type, describe] : schemas) {
+    types.push_back(type);
+    cases.push_back({type, "", [&](Fields& inner) {
+                       std::map<std::string, OptionValue> options;
+                       describe(inner, options);
+                       if (choice.type == type) choice.options = std::move(options);
+                     }});
+  }
+  const bool names_a_type = schemas.count(choice.name) > 0;
+  if (names_a_type) choice.type = choice.name;
+  fields.variant("type", choice.type, cases, "kind of estimator; by default its name",
+                 names_a_type ? Need::defaulted : Need::required);
+  fields.number("odometry_sd_factor", choice.odometry_sd_factor, more_than(0),
+                "what it believes of the odometry's noise, over what the sensor says");
+  fields.number("observation_sd_factor", choice.observation_sd_factor, more_than(0),
+                "what it believes of the observations' noise, over what the sensor says");
+  const std::string hint = suggestion(choice.name, types);
+  if (!names_a_type && choice.type.empty() && !hint.empty()) {
+    fields.problem("", fmt::format("'{}' is no type of estimator{}", choice.name, hint));
+  }
+}
+
+void describe_estimators(Fields& fields, World& world, const EstimatorSchemas& schemas) {
+  NameRule rule{{"truth", "odometry"}, {}};
+  for (const auto& [type, describe] : schemas) rule.known.push_back(type);
+  fields.named("estimators", rule, "what runs, by names of your own",
+               [&](Fields& inner, const std::string& name) {
+                 EstimatorChoice choice;
+                 choice.name = name;
+                 describe_estimator(inner, choice, schemas);
+                 world.estimators.push_back(std::move(choice));
+               });
+}
+
+void describe_scoring(Fields& fields, Scoring& scoring) {
+  fields.number("interval_s", scoring.interval, more_than(0),
+                "between the times at which consistency is scored");
+  fields.integer("landmark_sample", scoring.landmark_sample, at_least(1),
+                 "landmarks that are scored for consistency, at the most");
+  fields.number("rpe_interval_s", scoring.rpe_interval, more_than(0),
+                "over which the relative pose error is taken");
+}
+
+}  // namespace
+
+void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& estimators) {
+  World& world = file.world;
+  fields.text("name", world.name, "the file's name if it is not said");
+  fields.text("description", world.description, "one sentence");
+  fields.text("seifbed_version", file.version, "the program that resolved this file", Need::optional);
+  fields.integer("seed", world.seed, at_least(0), "of everything that is random");
+  fields.number("duration_s", world.duration, more_than_up_to(0, longest_duration), "of the run");
+  fields.section("ground", "the ground, centred on the origin", [&](Fields& inner) {
+    inner.vector2("size_m", world.ground_size, between(1, largest_ground), "along x and y");
+  });
+  fields.section("robot", "the robot", [&](Fields& inner) { describe_robot(inner, world.robot); });
+  fields.section("physics", "the physics", [&](Fields& inner) { describe_physics(inner, world.physics); });
+  fields.section("landmarks", "what the sensor sees", [&](Fields& inner) {
+    inner.list("placed", world.landmarks, describe_landmark, "by hand; they come first");
+    inner.list(
+        "generators", file.generators,
+        [&](Fields& item, Generator& generator) { describe_generator(item, generator, world.ground_size); },
+        "by rule and chance, in this order");
+  });
+  fields.section("obstacles", "what blocks motion and sight", [&](Fields& inner) {
+    inner.list("boxes", world.boxes, describe_box, "boxes");
+    inner.list("walls", world.walls, describe_wall, "walls along polylines");
+  });
+  fields.section("drive", "what the robot is told to do",
+                 [&](Fields& inner) { describe_drive(inner, world.drive, file.area); });
+  fields.section("sensors", "what the robot measures with", [&](Fields& inner) {
+    inner.section("encoders", "wheel encoders",
+                  [&](Fields& item) { describe_encoders(item, world.encoders); });
+    inner.section("landmark_sensor", "range and bearing of landmarks",
+                  [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
+  });
+  fields.section(
+      "start_estimate", "standard deviations of the start that the estimators are given", [&](Fields& inner) {
+        inner.number("x_sd_m", world.start_estimate.x_sd, more_than(0), "of x");
+        inner.number("y_sd_m", world.start_estimate.y_sd, more_than(0), "of y");
+        inner.angle("heading_sd_deg", world.start_estimate.heading_sd, more_than(0), "of the heading");
+      });
+  describe_estimators(fields, world, estimators);
+  fields.section("scoring", "how the run is scored",
+                 [&](Fields& inner) { describe_scoring(inner, world.scoring); });
+}
+
+}  // namespace worlds

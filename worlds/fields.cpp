@@ -1,0 +1,118 @@
+#include "worlds/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <numeric>
+#include <utility>
+
+#include "worlds/world.hpp"
+
+namespace worlds {
+namespace {
+
+/// The shortest number of degrees that is read as exactly these radians, if there is one.
+double to_degrees(double radians) {
+  constexpr int most_digits = 17;  // of which every double can be told apart
+  for (int digits = 1; digits <= most_digits; ++digits) {
+    const std::string text = fmt::format("{:.{}g}", radians / degree, digits);
+    double degrees = 0.0;
+    std::from_chars(text.data(), text.data() + text.size(), degrees);
+    if (degrees * degree == radians) return degrees;
+  }
+  return radians / degree;
+}
+
+/// Levenshtein distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = std::exchange(row[j + 1], std::min({substituted, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+void Fields::number(std::string_view key, double& value, const Range& range, std::string_view help,
+                    Need need) {
+  field({.key = key, .help = help, .need = need, .range = range}, &value);
+}
+
+void Fields::angle(std::string_view key, double& radians, const Range& range_deg, std::string_view help,
+                   Need need) {
+  double degrees = to_degrees(radians);
+  field({.key = key, .help = help, .need = need, .range = range_deg}, &degrees);
+  radians = degrees * degree;
+}
+
+void Fields::boolean(std::string_view key, bool& value, std::string_view help, Need need) {
+  field({.key = key, .help = help, .need = need}, &value);
+}
+
+void Fields::text(std::string_view key, std::string& value, std::string_view help, Need need) {
+  field({.key = key, .help = help, .need = need}, &value);
+}
+
+void Fields::choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
+                    std::string_view help, Need need) {
+  field({.key = key, .help = help, .need = need, .choices = choices}, &value);
+}
+
+void Fields::vector2(std::string_view key, Eigen::Vector2d& value, const Range& range, std::string_view help,
+                     Need need) {
+  field({.key = key, .help = help, .need = need, .range = range}, &value);
+}
+
+void Fields::points(std::string_view key, std::vector<Eigen::Vector2d>& value, const Range& range,
+                    std::size_t min_count, std::string_view help, Need need) {
+  field({.key = key, .help = help, .need = need, .range = range, .min_count = min_count}, &value);
+}
+
+std::string_view unit_of_key(std::string_view key) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> units = {{
+      {"_per_m2", "per m^2"},  // longer endings come first
+      {"_deg_s2", "deg/s^2"},
+      {"_deg_s", "deg/s"},
+      {"_m_s2", "m/s^2"},
+      {"_per_m", "per m"},
+      {"_m_s", "m/s"},
+      {"_rad_s", "rad/s"},
+      {"_deg", "deg"},
+      {"_rad", "rad"},
+      {"_kg", "kg"},
+      {"_hz", "Hz"},
+      {"_nm", "N m"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_w", "W"},
+  }};
+  for (const auto& [ending, unit] : units) {
+    if (key.ends_with(ending)) return unit;
+  }
+  return "";
+}
+
+std::string suggestion(std::string_view written, const std::vector<std::string>& choices) {
+  constexpr std::size_t longest = 64;  // beyond this it is no slip of the finger
+  if (written.size() > longest) return "";
+  std::size_t nearest = written.size() / 3 + 2;
+  const std::string* best = nullptr;
+  for (const std::string& candidate : choices) {
+    const std::size_t distance = edit_distance(written, candidate);
+    if (distance < nearest && distance < candidate.size()) {
+      nearest = distance;
+      best = &candidate;
+    }
+  }
+  return best == nullptr ? "" : fmt::format(" (did you mean '{}'?)", *best);
+}
+
+}  // namespace worlds

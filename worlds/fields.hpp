@@ -1,0 +1,171 @@
+// One description of a document, and what follows from it: a strict reader that fills in the defaults, and a
+// schema.
+//
+//   void describe(Fields& fields, Caster& caster) {
+//     fields.number("offset_m", caster.offset, any_number(), "along the robot's x from the axle");
+//     fields.number("radius_m", caster.radius, more_than(0), "radius");
+//   }
+//
+// A description says the same whatever the values are: it is run by the reader and by the schema's writer
+// alike. What a value holds before is its default. The unit of a number stands at the end of its key (`_m`,
+// `_deg_s`).
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "worlds/document.hpp"
+
+namespace worlds {
+
+/// The numbers that are allowed, in the unit of the key. All of them are finite.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool excludes_min = false;
+};
+
+inline Range any_number() { return {}; }
+inline Range at_least(double min) { return {.min = min}; }
+inline Range more_than(double min) { return {.min = min, .excludes_min = true}; }
+inline Range between(double min, double max) { return {.min = min, .max = max}; }
+inline Range more_than_up_to(double min, double max) {
+  return {.min = min, .max = max, .excludes_min = true};
+}
+
+/// What it means that a key is missing.
+enum class Need {
+  defaulted,  // the default holds, and the reader writes it into the document
+  optional,   // the value stays as it is, and nothing is written
+  required,   // a problem
+};
+
+/// One value with a key of its own.
+struct FieldSpec {
+  std::string_view key;
+  std::string_view help;
+  Need need = Need::defaulted;
+  Range range = {};                       // numbers
+  std::vector<std::string> choices = {};  // texts; empty: any
+  std::size_t min_count = 0;              // lists of points
+};
+
+/// Which names a map of named things may have: [A-Za-z0-9_-]+, and none that is reserved.
+struct NameRule {
+  std::vector<std::string> reserved;
+  std::vector<std::string> known;  // names that mean something by themselves: the schema describes each
+};
+
+/// See the head of the file. Functions that take `describe` hand it the fields of the inner map.
+class Fields {
+ public:
+  /// One of several kinds of section. The keys of those that are not chosen are asked for before the chosen
+  /// one is read: a description writes nothing but the values that it describes.
+  struct Case {
+    std::string name;
+    std::string help;
+    std::function<void(Fields&)> describe;  // the keys that only this kind has
+  };
+
+  virtual ~Fields() = default;
+
+  /// A finite number; integers are numbers.
+  void number(std::string_view key, double& value, const Range& range, std::string_view help,
+              Need need = Need::defaulted);
+
+  /// A number in degrees (or degrees per ...), kept in radians. `range` is in degrees.
+  void angle(std::string_view key, double& radians, const Range& range_deg, std::string_view help,
+             Need need = Need::defaulted);
+
+  /// A number without a fraction.
+  template <std::integral T>
+  void integer(std::string_view key, T& value, const Range& range, std::string_view help,
+               Need need = Need::defaulted) {
+    constexpr auto lowest = static_cast<double>(std::numeric_limits<T>::min());
+    constexpr auto highest = static_cast<double>(std::numeric_limits<T>::max());
+    auto wide = static_cast<std::int64_t>(value);
+    field({.key = key,
+           .help = help,
+           .need = need,
+           .range = {.min = std::max(range.min, lowest), .max = std::min(range.max, highest)}},
+          &wide);
+    value = static_cast<T>(wide);
+  }
+
+  void boolean(std::string_view key, bool& value, std::string_view help, Need need = Need::defaulted);
+
+  void text(std::string_view key, std::string& value, std::string_view help, Need need = Need::defaulted);
+
+  /// A text that is one of `choices`.
+  void choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
+              std::string_view help, Need need = Need::defaulted);
+
+  /// [x, y], each of them in the range.
+  void vector2(std::string_view key, Eigen::Vector2d& value, const Range& range, std::string_view help,
+               Need need = Need::defaulted);
+
+  /// [[x, y], ...], at least `min_count` of them, all numbers in the range.
+  void points(std::string_view key, std::vector<Eigen::Vector2d>& value, const Range& range,
+              std::size_t min_count, std::string_view help, Need need = Need::defaulted);
+
+  /// An inner map. One that is missing is read as an empty one: its own required keys are then missing.
+  virtual void section(std::string_view key, std::string_view help,
+                       const std::function<void(Fields&)>& describe) = 0;
+
+  /// A list of maps, each described by describe(fields, item). A missing list is empty.
+  template <class T, class Describe>
+  void list(std::string_view key, std::vector<T>& items, const Describe& describe, std::string_view help) {
+    list_of_maps(
+        key, help, [&](std::size_t count) { items.resize(count); },
+        [&](Fields& fields, std::size_t index) { describe(fields, items[index]); });
+  }
+
+  /// A map from names to maps, in the order of the document. A missing one is empty.
+  virtual void named(std::string_view key, const NameRule& rule, std::string_view help,
+                     const std::function<void(Fields&, const std::string& name)>& describe) = 0;
+
+  /// The kind of this section, and the keys of that kind. Keys of other kinds are problems that say so.
+  /// With Need::required there is no default kind.
+  virtual void variant(std::string_view key, std::string& kind, const std::vector<Case>& cases,
+                       std::string_view help, Need need = Need::defaulted) = 0;
+
+  /// Whether everything described so far was read without a problem: then values can be checked against each
+  /// other.
+  virtual bool sound() const = 0;
+
+  /// Something that is wrong with the value of a key (empty: with the whole section). Nothing but the reader
+  /// listens.
+  virtual void problem(std::string_view key, std::string message) = 0;
+
+ protected:
+  using Value = std::variant<bool*, std::int64_t*, double*, std::string*, Eigen::Vector2d*,
+                             std::vector<Eigen::Vector2d>*>;
+
+  virtual void field(const FieldSpec& spec, Value value) = 0;
+  virtual void list_of_maps(std::string_view key, std::string_view help,
+                            const std::function<void(std::size_t)>& resize,
+                            const std::function<void(Fields&, std::size_t)>& describe) = 0;
+};
+
+/// Reads a document strictly, as described: adds all that is wrong to `problems` and writes the defaults of
+/// what is missing into the document. True if there was no problem; otherwise values with a problem keep
+/// their defaults.
+bool read_fields(Node& document, const std::function<void(Fields&)>& describe,
+                 std::vector<Problem>& problems);
+
+/// The unit that the end of a key tells, as in "m/s"; empty if it tells none.
+std::string_view unit_of_key(std::string_view key);
+
+/// " (did you mean 'x'?)" with the choice that is nearest to what was written; empty if none is near.
+std::string suggestion(std::string_view written, const std::vector<std::string>& choices);
+
+}  // namespace worlds

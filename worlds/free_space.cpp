@@ -1,0 +1,50 @@
+#include "worlds/free_space.hpp"
+
+#include <algorithm>
+
+#include "worlds/path.hpp"
+
+namespace worlds {
+
+FreeSpace::FreeSpace(const World& world, double radius, const Clearances& clear, double own_distance)
+    : ground_size_(world.ground_size),
+      radius_(radius),
+      own_distance_(std::max(own_distance, 2 * radius + clear.landmarks)),
+      clear_landmarks_(clear.landmarks),
+      foreign_count_(world.landmarks.size()),
+      points_(std::max(own_distance_, radius + largest_radius(world.landmarks) + clear.landmarks)),
+      keep_outs_(world.ground_size, std::max(clear.walls, clear.path) + radius) {
+  for (const Landmark& landmark : world.landmarks) {
+    points_.add(landmark.position);
+    radii_.push_back(landmark.radius);
+  }
+  for (const Rectangle& solid : solid_rectangles(world)) keep_out(solid, clear.walls + radius);
+  for (const Segment& leg : legs(driven_path(world), false)) {
+    keep_out(rectangle(leg, 0.0), clear.path + radius);
+  }
+  const Segment start{world.robot.start.position, world.robot.start.position};
+  keep_out(rectangle(start, 0.0), footprint_radius(world.robot) + radius);
+}
+
+bool FreeSpace::is_free(const Eigen::Vector2d& p) const {
+  if (!on_ground(p, radius_, ground_size_)) return false;
+  const bool is_blocked = keep_outs_.any_near(
+      p, [&](std::size_t i, const Rectangle& shape) { return distance(p, shape) < clearances_[i]; });
+  if (is_blocked) return false;
+  return !points_.any_near(p, [&](std::size_t i, const Eigen::Vector2d& other) {
+    const double least = i < foreign_count_ ? radius_ + radii_[i] + clear_landmarks_ : own_distance_;
+    return (p - other).squaredNorm() < least * least;
+  });
+}
+
+void FreeSpace::add(const Eigen::Vector2d& p) {
+  points_.add(p);
+  radii_.push_back(radius_);
+}
+
+void FreeSpace::keep_out(const Rectangle& shape, double clearance) {
+  keep_outs_.add(shape, clearance);
+  clearances_.push_back(clearance);
+}
+
+}  // namespace worlds

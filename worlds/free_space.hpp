@@ -1,0 +1,48 @@
+// Where a landmark can stand: a query whose cost does not grow with the number of landmarks or walls.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "worlds/geometry.hpp"
+#include "worlds/point_grid.hpp"
+#include "worlds/shape_grid.hpp"
+#include "worlds/world.hpp"
+
+namespace worlds {
+
+/// How far the surface of a landmark stays from other things.
+struct Clearances {
+  double walls = 0.3;      // [m] from the surfaces of walls and boxes
+  double path = 0.6;       // [m] from the line that the robot is meant to drive
+  double landmarks = 0.3;  // [m] from the surfaces of other landmarks
+};
+
+/// The part of a world that is free for landmarks of one size.
+class FreeSpace {
+ public:
+  /// Free of what is in the world, its landmarks so far included. Landmarks that are added to the free space
+  /// keep `own_distance` [m] between their centres.
+  FreeSpace(const World& world, double radius, const Clearances& clear, double own_distance);
+
+  /// Whether a landmark can stand there: wholly on the ground, and clear of all that stands in the world.
+  bool is_free(const Eigen::Vector2d& p) const;
+
+  void add(const Eigen::Vector2d& p);
+
+ private:
+  void keep_out(const Rectangle& shape, double clearance);
+
+  Eigen::Vector2d ground_size_;  // [m]
+  double radius_;                // [m]
+  double own_distance_;          // [m]
+  double clear_landmarks_;       // [m]
+  std::size_t foreign_count_;    // [-] points below this index stood there before
+  std::vector<double> radii_;    // [m] of all landmarks
+  PointGrid points_;             // of all landmarks
+  ShapeGrid keep_outs_;
+  std::vector<double> clearances_;  // [m] from each of the keep-outs to the centre of a landmark
+};
+
+}  // namespace worlds

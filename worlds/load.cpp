@@ -1,0 +1,133 @@
+#include "worlds/load.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "worlds/check.hpp"
+#include "worlds/commands.hpp"
+#include "worlds/describe.hpp"
+#include "worlds/merge.hpp"
+#include "worlds/path.hpp"
+
+namespace worlds {
+namespace {
+
+Node text_node(std::string text, const Location& where) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.quoted = true;
+  node.where = where;
+  node.text = std::move(text);
+  return node;
+}
+
+/// Lays out the path, or reads the commands. The document gets the commands' full path: it may move
+/// elsewhere.
+void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Node& document,
+                   std::vector<Problem>& problems) {
+  Drive& drive = world_file.world.drive;
+  if (!is_sound(problems, {"drive"})) return;
+  if (drive.mode == DriveMode::serpentine) {
+    const auto& [min, max, lane] = world_file.area;
+    drive.path = serpentine(min, max, lane);
+  }
+  if (drive.mode == DriveMode::commands) {
+    Node* node = document.find("drive")->find("file");
+    const bool is_in_a_file = node->where.line > 0;  // and not in an override
+    const std::filesystem::path named_in = is_in_a_file ? std::filesystem::path(*node->where.source) : file;
+    const std::filesystem::path relative = named_in.parent_path() / drive.commands_file;
+    std::error_code error;
+    const std::filesystem::path full = std::filesystem::weakly_canonical(relative, error);
+    drive.commands_file = error ? relative.string() : full.string();
+    *node = text_node(drive.commands_file, node->where);
+    std::vector<Problem> found;
+    drive.commands = read_commands(drive.commands_file, found);
+    if (!found.empty() && found.front().where.line == 0) {  // about the file as a whole: say who wanted it
+      refuse_value(document, "drive.file", to_string(found.front()), problems);
+    } else {
+      problems.insert(problems.end(), found.begin(), found.end());
+    }
+  }
+}
+
+void generate_landmarks(const Node& document, WorldFile& world_file, std::vector<Problem>& problems) {
+  constexpr double most = 2e7;  // ids are 32 bits wide, and memory has an end
+  World& world = world_file.world;
+  for (std::size_t i = 0; i < world_file.generators.size(); ++i) {
+    const Generator& generator = world_file.generators[i];
+    const std::string path = fmt::format("landmarks.generators.{}", i);
+    const double wanted = wanted_landmarks(generator, world);
+    if (wanted < 1 || wanted + static_cast<double>(world.landmarks.size()) > most) {
+      const bool lacks_path =
+          generator.pattern == Pattern::corridor && generator.points.empty() && world.drive.path.empty();
+      refuse_value(document, path,
+                   lacks_path
+                       ? "the corridor needs 'points_m', because the drive has no path"
+                       : fmt::format("the generator is to place {} landmarks: at least 1 and at most {}",
+                                     wanted, most),
+                   problems);
+      continue;
+    }
+    std::mt19937_64 random = generator_stream(world.seed, static_cast<std::uint32_t>(i));
+    const Placed result = generate(generator, world, random);
+    if (result.placed < result.wanted) {
+      refuse_value(
+          document, path,
+          fmt::format("only {} of {} landmarks found a free place (max_tries is {}): there is too little "
+                      "room for this many with these clear distances",
+                      result.placed, result.wanted, generator.max_tries),
+          problems);
+    }
+  }
+}
+
+std::optional<Node> read_document_with_overrides(const std::filesystem::path& file,
+                                                 const std::vector<std::string>& overrides,
+                                                 std::vector<Problem>& problems) {
+  std::optional<Node> document = read_extended_document(file, problems);
+  if (!document) return std::nullopt;
+  if (document->kind == Node::Kind::map) {
+    for (const std::string& assignment : overrides) apply_override(*document, assignment, problems);
+  }
+  return document;
+}
+
+void set_version(Node& document, std::string_view version) {
+  if (version.empty()) return;
+  if (document.find("seifbed_version") == nullptr) {
+    document.entries.insert(document.entries.begin(), {"seifbed_version", document.where, {}});
+  }
+  *document.find("seifbed_version") = text_node(std::string(version), document.where);
+}
+
+}  // namespace
+
+LoadResult load_world(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                      const EstimatorSchemas& estimators, std::string_view version) {
+  LoadResult result;
+  std::vector<Problem>& problems = result.problems;
+  std::optional<Node> document = read_document_with_overrides(file, overrides, problems);
+  if (document && document->kind == Node::Kind::map) {
+    WorldFile world_file;
+    world_file.world.name = file.stem().string();
+    read_fields(
+        *document, [&](Fields& fields) { describe_world(fields, world_file, estimators); }, problems);
+    prepare_drive(file, world_file, *document, problems);
+    check_world(*document, world_file.world, problems);
+    if (is_sound(problems, {"ground", "robot", "obstacles", "landmarks", "drive", "seed"})) {
+      generate_landmarks(*document, world_file, problems);
+    }
+    if (problems.empty()) {
+      set_version(*document, version);
+      result.resolved = emit(*document);
+      result.world = std::move(world_file.world);
+    }
+  } else if (document) {
+    problems.push_back({document->where, "a world file must be a map of sections", ""});
+  }
+  sort_by_place(problems);
+  return result;
+}
+
+}  // namespace worlds
