@@ -1,0 +1,13 @@
+// Independent random streams, one for each (seed, name): drawing from one never shifts another.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string_view>
+
+namespace sensors {
+
+/// The engine of the stream `name` in the run `seed`: equal arguments give equal engines, on every machine.
+std::mt19937_64 random_stream(std::uint64_t seed, std::string_view name);
+
+}  // namespace sensors

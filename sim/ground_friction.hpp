@@ -1,0 +1,13 @@
+// How slippery the ground is where a wheel stands.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "worlds/world.hpp"
+
+namespace sim {
+
+/// The Coulomb coefficient [-] at a place: of the last patch that holds it, else of the ground.
+double ground_friction(const worlds::Physics& physics, const Eigen::Vector2d& p_world);
+
+}  // namespace sim

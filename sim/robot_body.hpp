@@ -1,0 +1,82 @@
+// The robot's bodies, joints and motors.
+//
+// A chassis on two driven wheels and a caster. The robot frame has its origin on the ground under the middle
+// of the axle. Three choices make the encoders read what a real robot's would:
+//  - A wheel touches the ground with a sphere. A cylinder scrubs on an edge that wanders, and reads a 20 rad
+//    spin wrong by 2 to 7 %.
+//  - A wheel hangs on a hinge with a motor. btRaycastVehicle computes the wheels' turning from the chassis:
+//    its encoders would never see slip.
+//  - A motor is limited by the impulse that it may give in a step, torque times dt.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <Eigen/Core>
+
+#include "sim/simulator.hpp"
+#include "sim/stepped_world.hpp"
+#include "worlds/world.hpp"
+
+namespace sim {
+
+/// The chassis in the robot frame: a box that covers the wheels and the caster from above, so that it is what
+/// bumps into things.
+struct ChassisBox {
+  btVector3 min;  // [m]
+  btVector3 max;  // [m]
+};
+ChassisBox chassis_box(const worlds::Robot& robot);
+
+/// The largest distance of a point of the chassis from the middle of the axle, on the plane. [m]
+double footprint_radius(const worlds::Robot& robot);
+
+class RobotBody {
+ public:
+  /// Puts the robot at its start, at rest. Keeps a reference to the world.
+  /// Throws std::invalid_argument for a mass, length or limit that is not positive.
+  RobotBody(const worlds::Robot& robot, const worlds::Physics& physics, SteppedWorld& world);
+  ~RobotBody();
+  RobotBody(const RobotBody&) = delete;
+  RobotBody& operator=(const RobotBody&) = delete;
+
+  /// To be called before each step of dt [s]: sets the motors and what the wheels stand on.
+  /// Throws std::invalid_argument for a command that is not finite.
+  void drive(const Command& command, double dt);
+
+  /// To be called after each step: follows the joint angles over their wrap at +-pi.
+  void read_joints();
+
+  Eigen::Vector2d position() const;
+
+  /// The state but for its time.
+  RobotState state() const;
+
+ private:
+  struct Wheel {
+    Wheel(const worlds::Robot& robot, btSphereShape& shape, btRigidBody& chassis,
+          const btVector3& p_chassis_wheel);
+    void read_joint();
+    double angle() const;  // [rad] since the start, unwrapped
+
+    btRigidBody body;
+    btHingeConstraint hinge;
+    double wrapped_angle = 0.0;  // [rad] in [-pi, pi]
+    double turns = 0.0;          // [-] whole
+  };
+
+  void add_to_world(Wheel& wheel);
+
+  worlds::Robot robot_;
+  worlds::Physics physics_;
+  btDiscreteDynamicsWorld& world_;
+  btBoxShape box_shape_;
+  btSphereShape caster_shape_;
+  btSphereShape wheel_shape_;
+  btCompoundShape chassis_shape_;
+  btRigidBody chassis_;
+  Wheel left_;
+  Wheel right_;
+  Command command_;  // after the limits
+};
+
+}  // namespace sim

@@ -1,0 +1,78 @@
+// The physical truth: a differential-drive robot in Bullet, and lines of sight between it and the landmarks.
+//
+// Two collision worlds. The stepped one holds the ground, the robot and the solid things near it, streamed in
+// and out as it moves; the sensing one holds every landmark and obstacle and is never stepped. So neither a
+// step nor a scan costs more in a world with more landmarks.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "worlds/world.hpp"
+
+namespace sim {
+
+/// What the robot is told: its limits and its motors decide what it does.
+struct Command {
+  double v = 0.0;      // [m/s] forward
+  double omega = 0.0;  // [rad/s] counter-clockwise
+};
+
+/// The true state of the robot.
+struct RobotState {
+  double t = 0.0;                                      // [s] since the start
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world_robot, of the middle of the axle [m]
+  double heading = 0.0;                                // [rad] in (-pi, pi]
+  double left_wheel = 0.0;                             // [rad] joint angle since the start, unwrapped
+  double right_wheel = 0.0;                            // [rad] joint angle since the start, unwrapped
+  double v = 0.0;                                      // [m/s] along the heading
+  double omega = 0.0;                                  // [rad/s]
+};
+
+/// The work done so far: what must not grow with the number of landmarks.
+struct SimulatorCounts {
+  std::int64_t steps = 0;            // [-] physics steps
+  std::int64_t objects_stepped = 0;  // [-] collision objects in the stepped world, summed over the steps
+  std::int64_t rays = 0;             // [-] rays cast
+  std::int64_t candidates = 0;       // [-] objects looked at by the queries around a point
+};
+
+/// One simulated world. Same world, same build: same bits. Not thread-safe; one thread for each.
+class Simulator {
+ public:
+  /// Copies what it needs of the world. Throws std::invalid_argument for what physics cannot work with: a
+  /// mass, length or limit that is not positive, a wall of fewer than two points.
+  explicit Simulator(const worlds::World& world);
+  ~Simulator();
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  /// Advances the world by one physics step, 1 / step_rate. Throws std::invalid_argument for a command that
+  /// is not finite.
+  void step(const Command& command);
+
+  RobotState robot() const;
+
+  /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces what `out`
+  /// held.
+  void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const;
+
+  /// Whether nothing but the landmark itself stands between p_world_sensor and the near face of that
+  /// landmark.
+  bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const;
+
+  /// Whether a disk of `radius` [m] can be swept from one point to the other without touching anything solid,
+  /// at the start or later.
+  bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
+                     double radius) const;
+
+  SimulatorCounts counts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sim

@@ -1,0 +1,100 @@
+#include "sim/solids.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sim {
+
+namespace {
+
+/// The one shape of a size, made when first asked for.
+template <class Shape, class Size>
+Shape& shared(std::map<Size, std::unique_ptr<Shape>>& shapes, const Size& size,
+              const btVector3& half_extents) {
+  std::unique_ptr<Shape>& shape = shapes[size];
+  if (!shape) {
+    shape = std::make_unique<Shape>(half_extents);
+  }
+  return *shape;
+}
+
+/// Motion and sight are planar, whatever height is drawn: nothing passes over or under a solid. One metre,
+/// and more for a robot that is itself tall; the solids stand as deep below the ground as above it.
+double tall_enough(const worlds::Robot& robot) {
+  return 1.0 + 4.0 * (robot.wheel_radius + robot.caster.radius);
+}
+
+}  // namespace
+
+Solids::Solids(const worlds::World& world) : half_height_(tall_enough(world.robot)) {
+  disks_.reserve(world.landmarks.size());
+  shapes_.reserve(world.landmarks.size() + world.boxes.size());
+  for (const worlds::Landmark& landmark : world.landmarks) {
+    add_landmark(landmark);
+  }
+  for (const worlds::Box& box : world.boxes) {
+    add_rectangle({box.centre.position, box.centre.heading, 0.5 * box.size});
+  }
+  for (const worlds::Wall& wall : world.walls) {
+    add_wall(wall);
+  }
+}
+
+void Solids::add_landmark(const worlds::Landmark& landmark) {
+  const double radius = landmark.radius;
+  if (!(radius > 0.0)) {
+    throw std::invalid_argument("simulator: a landmark's radius must be positive");
+  }
+  disks_.push_back({landmark.position, radius});
+  shapes_.push_back(&shared(cylinders_, {radius, 0.0}, btVector3(radius, radius, half_height_)));
+}
+
+void Solids::add_rectangle(const Rectangle& rectangle) {
+  const Eigen::Vector2d& half = rectangle.half_size;
+  if (!(half.x() > 0.0 && half.y() > 0.0)) {
+    throw std::invalid_argument("simulator: the sizes of boxes and walls must be positive");
+  }
+  rectangles_.push_back(rectangle);
+  shapes_.push_back(&shared(boxes_, {half.x(), half.y()}, btVector3(half.x(), half.y(), half_height_)));
+}
+
+/// Segments reach half a thickness beyond the points that they share: so corners are filled, and no ray slips
+/// through between two segments in line.
+void Solids::add_wall(const worlds::Wall& wall) {
+  const std::size_t points = wall.points.size();
+  if (points < 2) {
+    throw std::invalid_argument("simulator: a wall needs at least two points");
+  }
+  const std::size_t segments = wall.closed ? points : points - 1;
+  const double half_thickness = 0.5 * wall.thickness;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const Eigen::Vector2d& start = wall.points[i];
+    const Eigen::Vector2d& end = wall.points[(i + 1) % points];
+    const Eigen::Vector2d along = end - start;
+    const double length = along.norm();
+    const double before = wall.closed || i > 0 ? half_thickness : 0.0;
+    const double after = wall.closed || i + 1 < segments ? half_thickness : 0.0;
+    if (!(length > 0.0)) {
+      throw std::invalid_argument("simulator: two points of a wall that follow each other must differ");
+    }
+    const Eigen::Vector2d middle = 0.5 * (start + end) + 0.5 * (after - before) / length * along;
+    add_rectangle({middle, std::atan2(along.y(), along.x()),
+                   Eigen::Vector2d(0.5 * (length + before + after), half_thickness)});
+  }
+}
+
+double Solids::distance_to(int solid, const Segment& way) const {
+  return is_landmark(solid) ? distance(way, landmark(solid)) : distance(way, rectangle(solid));
+}
+
+btTransform Solids::T_world_solid(int solid) const {
+  const double heading = is_landmark(solid) ? 0.0 : rectangle(solid).heading;
+  const Eigen::Vector2d& centre = is_landmark(solid) ? landmark(solid).centre : rectangle(solid).centre;
+  return btTransform(btQuaternion(btVector3(0.0, 0.0, 1.0), heading), btVector3(centre.x(), centre.y(), 0.0));
+}
+
+const Rectangle& Solids::rectangle(int solid) const {
+  return rectangles_[static_cast<std::size_t>(solid) - disks_.size()];
+}
+
+}  // namespace sim

@@ -1,0 +1,29 @@
+// What the tests of motion share: driving a simulator and reading it like a robot with perfect encoders.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "sim/simulator.hpp"
+
+namespace sim {
+
+inline void drive_for(Simulator& simulator, const worlds::World& world, double seconds,
+                      const Command& command) {
+  const auto steps = static_cast<std::int64_t>(std::lround(seconds * world.physics.step_rate));
+  for (std::int64_t i = 0; i < steps; ++i) {
+    simulator.step(command);
+  }
+}
+
+/// What the wheels say of the way of the axle's middle. [m]
+inline double wheel_travel(const RobotState& state, const worlds::Robot& robot) {
+  return 0.5 * (state.left_wheel + state.right_wheel) * robot.wheel_radius;
+}
+
+/// What the wheels say of the turn. [rad]
+inline double wheel_turn(const RobotState& state, const worlds::Robot& robot) {
+  return (state.right_wheel - state.left_wheel) * robot.wheel_radius / robot.track;
+}
+
+}  // namespace sim
