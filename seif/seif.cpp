@@ -1,5 +1,8 @@
 #include "seif/seif.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
@@ -16,9 +19,9 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   seif::measurement_update(state_, scan.observations, T_robot_sensor_);
   done(Stage::measurement);
 
-  if (const int surplus = state_.active_count() - options_.theta_x; surplus > 0) {
-    choose_to_drop(state_, options_.drop, surplus, to_drop_);
-    if (!sparsify(state_, options_.rule, to_drop_)) throw NumericalFailure("sparsification", scan.t);
+  choose_surplus();
+  if (!to_drop_.empty() && !sparsify(state_, options_.rule, to_drop_)) {
+    throw NumericalFailure("sparsification", scan.t);
   }
   done(Stage::sparsification);
 
@@ -27,6 +30,16 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
                              : coordinate_descent(state_, options_.random_landmarks, random_);
   if (!recovered) throw NumericalFailure("mean recovery", scan.t);
   done(Stage::mean_recovery);
+}
+
+/// Fills to_drop_ with the active landmarks that are to lose their link to the robot now.
+void Seif::choose_surplus() {
+  to_drop_.clear();
+  if (state_.active_count() <= std::max(options_.theta_x, options_.theta_max)) return;
+  choose_to_drop(state_, options_.drop, state_.active_count() - options_.theta_x, to_drop_);
+  if (options_.keep_in_view) {
+    std::erase_if(to_drop_, [this](int slot) { return state_.scans_since_seen(slot) == 0; });
+  }
 }
 
 Counts Seif::counts() const {

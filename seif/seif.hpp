@@ -17,9 +17,11 @@ enum class MeanRecovery {
 
 /// The defaults are the report's filter, in constant time.
 struct SeifOptions {
-  int theta_x = 6;  // [-] landmarks that keep their link to the robot
+  int theta_x = 6;    // [-] landmarks that keep their link to the robot after a sparsification
+  int theta_max = 0;  // [-] sparsify only when the robot has more links than this; at most theta_x: at once
   SparsificationRule rule = SparsificationRule::report;
   DropOrder drop = DropOrder::weakest_out_of_view;  // which of the active landmarks lose their link first
+  bool keep_in_view = false;  // never drop a landmark of the latest scan, whatever the bounds say
   MeanRecovery mean_recovery = MeanRecovery::coordinate_descent;
   int random_landmarks = 10;  // [-] K of the coordinate descent, beside the active ones
 };
@@ -49,6 +51,8 @@ class Seif final : public Estimator {
   const InformationState& state() const { return state_; }
 
  private:
+  void choose_surplus();
+
   InformationState state_;
   SeifOptions options_;
   Pose2 T_robot_sensor_;

@@ -1,9 +1,11 @@
 #include "seif/sparsification.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -39,7 +41,9 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
   for (const int slot : slots) {
     const int row = InformationState::row_of(state.position(slot));
     if (!marginalise_landmark(D, row, V)) return false;
-    D.topRows<3>().middleCols<2>(row).setZero();  // zero but for rounding
+  }
+  for (const int slot : slots) {  // zero but for rounding
+    D.topRows<3>().middleCols<2>(InformationState::row_of(state.position(slot))).setZero();
   }
   const LLT3 Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
   const LLT3 Lambda(Eigen::Matrix3d(D.topLeftCorner<3, 3>()));
@@ -87,6 +91,59 @@ std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
   return state.Omega() - Omega_Pw.transpose() * llt.solve(Omega_Pw);
 }
 
+/// V = D P (w x 3) with the rigid-body modes P of the window as columns: both translations, and the rotation
+/// about the robot; each scaled to unit length. `scales` gets the lengths.
+void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const Eigen::MatrixXd>& D,
+                          Columns V, Eigen::Vector3d& scales) {
+  const Pose2 pose = state.pose();
+  V = D.leftCols<3>();
+  double squared_levers = 0.0;
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int row = InformationState::row_of(position);
+    const Eigen::Vector2d lever = state.mean(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    V.leftCols<2>() += D.middleCols<2>(row);
+    V.col(2) += lever.x() * D.col(row + 1) - lever.y() * D.col(row);
+    squared_levers += lever.squaredNorm();
+  }
+  const double translation = std::sqrt(1.0 + state.active_count());
+  scales << translation, translation, std::sqrt(1.0 + squared_levers);
+  V = V * scales.cwiseInverse().asDiagonal();
+}
+
+/// P' V (3 x 3), with P as above.
+Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Columns& V,
+                                       const Eigen::Vector3d& scales) {
+  const Pose2 pose = state.pose();
+  Eigen::Matrix3d PtV = V.topRows<3>();
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int row = InformationState::row_of(position);
+    const Eigen::Vector2d lever = state.mean(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    PtV.topRows<2>() += V.middleRows<2>(row);
+    PtV.row(2) += lever.x() * V.row(row + 1) - lever.y() * V.row(row);
+  }
+  return scales.cwiseInverse().asDiagonal() * PtV;
+}
+
+/// D_f = D - D P (P' D P)^+ P' D. A mode that D says nothing of has an eigenvalue of rounding size and either
+/// sign: it is left alone.
+void float_window(InformationState& state) {
+  auto D = state.work();
+  auto V = state.work_columns();
+  Eigen::Vector3d scales;
+  apply_to_rigid_modes(state, D, V, scales);
+  const Eigen::Matrix3d PtDP = project_on_rigid_modes(state, V, scales);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(0.5 * (PtDP + PtDP.transpose()));
+  const double rounding = 1e-10 * D.diagonal().maxCoeff();
+  Eigen::Matrix3d to_unit = modes.eigenvectors();
+  for (int k = 0; k < 3; ++k) {
+    const double eigenvalue = modes.eigenvalues()(k);
+    to_unit.col(k) *= eigenvalue > rounding ? 1.0 / std::sqrt(eigenvalue) : 0.0;
+  }
+  for (Eigen::Index i = 0; i < V.rows(); ++i) V.row(i) = (V.row(i) * to_unit).eval();  // in place
+  D.noalias() -= V * V.transpose();
+  state.touch(state.window_blocks());
+}
+
 }  // namespace
 
 bool sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
@@ -94,6 +151,10 @@ bool sparsify(InformationState& state, SparsificationRule rule, std::span<const 
   switch (rule) {
     case SparsificationRule::report:
       state.work() = state.Omega();
+      break;
+    case SparsificationRule::gauge_free:
+      state.work() = state.Omega();
+      float_window(state);
       break;
     case SparsificationRule::modified:
       if (const auto marginal = window_marginal(state)) {

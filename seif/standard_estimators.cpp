@@ -21,6 +21,12 @@ const OptionSpec theta_x{.key = "theta_x",
                          .min = 2,
                          .max = 1000,
                          .help = "Landmarks that keep their link to the robot when an update ends [-]."};
+const OptionSpec theta_max{
+    .key = "theta_max",
+    .fallback = std::int64_t{16},
+    .min = 2,
+    .max = 1000,
+    .help = "Links of the robot above which all but theta_x are dropped in one burst [-]."};
 const OptionSpec drop{
     .key = "drop",
     .fallback = std::string("weakest_out_of_view"),
@@ -42,24 +48,53 @@ EstimatorType without_options(const std::string& name, const std::string& help) 
           }};
 }
 
-/// A SEIF with a fixed rule and mean recovery.
-EstimatorType seif_type(const std::string& name, const std::string& help, SparsificationRule rule,
-                        MeanRecovery mean_recovery) {
-  std::vector<OptionSpec> specs{theta_x, drop};
-  if (mean_recovery == MeanRecovery::coordinate_descent) specs.push_back(K);
+int integer(const Options& options, const OptionSpec& spec) {
+  return static_cast<int>(option<std::int64_t>(options, spec.key));
+}
+
+EstimatorType seif_report() {
+  return {
+      .name = "seif_report",
+      .help = "The report's SEIF in constant time, faithful to its sparsification rule and so overconfident.",
+      .options = {theta_x, drop, K},
+      .make = [](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<Seif>(
+            setup, SeifOptions{.theta_x = integer(options, theta_x),
+                               .drop = drop_orders.at(option<std::string>(options, drop.key)),
+                               .random_landmarks = integer(options, K)});
+      }};
+}
+
+/// A SEIF that sparsifies at once, as the report's does, and solves for its mean.
+EstimatorType seif_with_exact_mean(const std::string& name, const std::string& help,
+                                   SparsificationRule rule) {
   return {.name = name,
           .help = help,
-          .options = specs,
-          .make = [rule, mean_recovery](const EstimatorSetup& setup, const Options& options) {
-            SeifOptions chosen{.theta_x = static_cast<int>(option<std::int64_t>(options, theta_x.key)),
-                               .rule = rule,
-                               .drop = drop_orders.at(option<std::string>(options, drop.key)),
-                               .mean_recovery = mean_recovery};
-            if (mean_recovery == MeanRecovery::coordinate_descent) {
-              chosen.random_landmarks = static_cast<int>(option<std::int64_t>(options, K.key));
-            }
-            return std::make_unique<Seif>(setup, chosen);
+          .options = {theta_x, drop},
+          .make = [rule](const EstimatorSetup& setup, const Options& options) {
+            return std::make_unique<Seif>(
+                setup, SeifOptions{.theta_x = integer(options, theta_x),
+                                   .rule = rule,
+                                   .drop = drop_orders.at(option<std::string>(options, drop.key)),
+                                   .mean_recovery = MeanRecovery::exact});
           }};
+}
+
+EstimatorType seif_gauge_free() {
+  return {
+      .name = "seif_gauge_free",
+      .help =
+          "The SEIF with gauge-free sparsification in bursts and exact mean: not in constant time; what our "
+          "rule alone costs.",
+      .options = {theta_x, theta_max},
+      .make = [](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<Seif>(setup, SeifOptions{.theta_x = integer(options, theta_x),
+                                                         .theta_max = integer(options, theta_max),
+                                                         .rule = SparsificationRule::gauge_free,
+                                                         .drop = DropOrder::least_recently_seen,
+                                                         .keep_in_view = true,
+                                                         .mean_recovery = MeanRecovery::exact});
+      }};
 }
 
 }  // namespace
@@ -70,20 +105,17 @@ Registry standard_estimators() {
       "ekf", "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline."));
   registry.add(without_options<Eif>(
       "eif", "The dense extended information filter: exact up to linearisation, cubic time; the oracle."));
-  registry.add(seif_type(
-      "seif_report",
-      "The report's SEIF in constant time, faithful to its sparsification rule and so overconfident.",
-      SparsificationRule::report, MeanRecovery::coordinate_descent));
-  registry.add(seif_type(
+  registry.add(seif_report());
+  registry.add(seif_with_exact_mean(
       "seif_exact",
-      "The report's SEIF with its mean recovered exactly: not in constant time; the second row of its "
-      "table.",
-      SparsificationRule::report, MeanRecovery::exact));
+      "The report's SEIF with its mean recovered exactly: not in constant time; the second row of its table.",
+      SparsificationRule::report));
   registry.add(
-      seif_type("seif_modified",
-                "The SEIF with Eustice's modified rule and exact mean: not in constant time; an oracle for "
-                "consistent sparsification.",
-                SparsificationRule::modified, MeanRecovery::exact));
+      seif_with_exact_mean("seif_modified",
+                           "The SEIF with Eustice's modified rule and exact mean: not in constant time; an "
+                           "oracle for consistent sparsification.",
+                           SparsificationRule::modified));
+  registry.add(seif_gauge_free());
   return registry;
 }
 

@@ -112,6 +112,22 @@ inline Eigen::MatrixXd marginalised(const Eigen::MatrixXd& H, const std::vector<
   return S * (S.transpose() * H.inverse() * S).inverse() * S.transpose();
 }
 
+/// The belief conditioned on Y- = 0 without what it knows of the place and heading of the whole: H0 floated
+/// by its rigid-body modes, written down from their definition.
+inline Eigen::MatrixXd floated(const Eigen::MatrixXd& H, const Eigen::VectorXd& mu,
+                               const std::vector<int>& active) {
+  const Eigen::MatrixXd S = projection(H.rows(), true, active);
+  const Eigen::MatrixXd D = S.transpose() * H * S;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(D.rows(), 3);
+  P.topRows<3>().setIdentity();
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const Eigen::Vector2d lever = mu.segment<2>(InformationState::row_of(active[i])) - mu.head<2>();
+    P.middleRows<2>(3 + 2 * static_cast<int>(i)) << 1, 0, -lever.y(), 0, 1, lever.x();
+  }
+  const Eigen::MatrixXd D_f = D - D * P * (P.transpose() * D * P).inverse() * P.transpose() * D;
+  return S * D_f * S.transpose();
+}
+
 /// Eq. (50), with `H0` the belief over robot and active landmarks, and `dropped` the slots of Y0.
 inline Eigen::MatrixXd sparsified(const Eigen::MatrixXd& H, const Eigen::MatrixXd& H0,
                                   const std::vector<int>& dropped) {
