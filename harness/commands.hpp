@@ -1,0 +1,39 @@
+// The commands of the program. Each adds itself to the command line and, if it was called, runs with the exit
+// code: 0 fine, 1 a run that failed, 2 bad input, 130 interrupted.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/run.hpp"
+#include "seif/registry.hpp"
+#include "worlds/load.hpp"
+
+namespace harness {
+
+/// What every command is handed.
+struct CommandLine {
+  CLI::App& app;
+  const seif::Registry& registry;
+  int& exit_code;  // of the command that ran
+};
+
+void add_run(CommandLine line);
+void add_replay(CommandLine line);
+void add_validate(CommandLine line);
+void add_schema(CommandLine line);
+void add_estimators(CommandLine line);
+
+/// Prints each problem as a line of stderr, sorted by place.
+void print_problems(std::vector<worlds::Problem> problems);
+
+/// Runs a command; what it throws is printed, and becomes an exit code.
+int guarded(const std::function<int()>& command);
+
+/// Tells how a run ended: its error, and the summary as JSON or as a scoreboard. The exit code.
+int print_result(const RunResult& result, const std::filesystem::path& folder, bool json, bool quiet);
+
+}  // namespace harness

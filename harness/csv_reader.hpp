@@ -1,0 +1,67 @@
+// Reads text tables row by row, strictly: every complaint says file, line, column and reason.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace harness {
+
+/// Something that was given to the program is wrong. what() is a whole message: `file:line:column: reason`.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The columns that a table must have, in this order, and a group that may follow them all or not at all.
+struct Columns {
+  std::vector<std::string> required;
+  std::vector<std::string> optional;
+};
+
+/// A table as a stream of rows, in constant memory. All functions throw BadInput.
+class CsvReader {
+ public:
+  CsvReader(std::filesystem::path path, Columns columns);
+
+  /// A table without a header whose cells stand between spaces, as in TUM files; lines that begin with # are
+  /// skipped.
+  static CsvReader without_header(std::filesystem::path path, Columns columns);
+
+  /// The next row; false at the end. A row may stop early: the cells that it lacks are empty.
+  bool next();
+
+  bool has_optional() const { return has_optional_; }
+  bool is_empty(int column) const;
+  double number(int column) const;                                             // finite
+  std::int64_t integer(int column, std::int64_t min, std::int64_t max) const;  // min <= value <= max
+  [[noreturn]] void fail(int column, const std::string& reason) const;
+
+ private:
+  CsvReader(std::filesystem::path path, Columns columns, char separator);
+  bool read_line();
+  void split();
+  void read_header();
+  std::string_view cell(int column) const;
+  const std::string& name(int column) const;
+
+  struct Cell {
+    std::size_t begin = 0;  // [-] offset in the line
+    std::size_t size = 0;
+  };
+
+  std::filesystem::path path_;
+  Columns columns_;
+  char separator_;
+  bool has_optional_ = false;
+  std::ifstream file_;
+  std::int64_t line_number_ = 0;
+  std::string line_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace harness

@@ -1,0 +1,127 @@
+#include "harness/csv_writer.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+namespace harness {
+
+namespace {
+
+constexpr std::size_t buffer_limit = std::size_t{1} << 16;  // [byte] gathered before they go to the system
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail(errno);
+  buffer_.reserve(buffer_limit + buffer_limit / 4);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      buffer_(std::move(other.buffer_)) {}
+
+OutputFile::~OutputFile() {
+  try {
+    close();
+  } catch (const std::system_error&) {
+    // A destructor cannot tell; whoever needs to know calls close().
+  }
+}
+
+void OutputFile::append(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= buffer_limit) flush();
+}
+
+void OutputFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(errno);
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+  // Writing to a file that was deleted succeeds, and everything is lost.
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail(errno);
+  if (status.st_nlink == 0) fail(ENOENT);
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  try {
+    flush();
+  } catch (const std::system_error&) {
+    ::close(std::exchange(descriptor_, -1));
+    throw;
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+}
+
+void OutputFile::fail(int error) const {
+  throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", path_.string()));
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path unfinished = path;
+  unfinished += ".part";
+  std::filesystem::remove(unfinished);
+  OutputFile file(unfinished);
+  file.append(text);
+  file.close();
+  std::filesystem::rename(unfinished, path);
+}
+
+CsvWriter::CsvWriter(std::filesystem::path path, std::string_view header, char separator)
+    : file_(std::move(path)), separator_(separator) {
+  if (header.empty()) return;
+  row_ = header;
+  end_row();
+}
+
+void CsvWriter::separate() {
+  if (row_begun_) row_ += separator_;
+  row_begun_ = true;
+}
+
+CsvWriter& CsvWriter::value(double number) {
+  separate();
+  fmt::format_to(std::back_inserter(row_), "{}", number);
+  return *this;
+}
+
+CsvWriter& CsvWriter::value(std::int64_t number) {
+  separate();
+  fmt::format_to(std::back_inserter(row_), "{}", number);
+  return *this;
+}
+
+CsvWriter& CsvWriter::empty() {
+  separate();
+  return *this;
+}
+
+CsvWriter& CsvWriter::empty(int cells) {
+  for (int i = 0; i < cells; ++i) empty();
+  return *this;
+}
+
+void CsvWriter::end_row() {
+  row_ += '\n';
+  file_.append(row_);
+  row_.clear();
+  row_begun_ = false;
+}
+
+}  // namespace harness

@@ -1,0 +1,64 @@
+// Text tables on disk: written as the run goes, with bounded memory and no error unnoticed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace harness {
+
+/// A file that only grows. Every failure (disk full, file gone) throws std::system_error that names the file.
+class OutputFile {
+ public:
+  /// Creates the file; one that exists already is an error.
+  explicit OutputFile(std::filesystem::path path);
+  ~OutputFile();  // closes; what a failed flush() left is lost, so call close() where it matters
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+
+  void append(std::string_view text);
+
+  /// Hands everything to the operating system.
+  void flush();
+  void close();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::string buffer_;
+};
+
+/// Writes the whole text, so that nobody ever finds part of the file under its name.
+void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+/// Rows of values. Numbers read back to the same bits.
+class CsvWriter {
+ public:
+  /// `header` is the first line, without its end. The separator of TUM files is a space, and they have no
+  /// header.
+  explicit CsvWriter(std::filesystem::path path, std::string_view header, char separator = ',');
+
+  CsvWriter& value(double number);
+  CsvWriter& value(std::int64_t number);
+  CsvWriter& empty();
+  CsvWriter& empty(int cells);
+  void end_row();
+
+  void flush() { file_.flush(); }
+  void close() { file_.close(); }
+
+ private:
+  void separate();
+
+  OutputFile file_;
+  char separator_;
+  bool row_begun_ = false;
+  std::string row_;
+};
+
+}  // namespace harness

@@ -1,0 +1,104 @@
+#include "harness/score.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "harness/alignment.hpp"
+
+namespace harness {
+
+namespace {
+
+double root_mean_square(double sum_of_squares, std::size_t count) {
+  return std::sqrt(sum_of_squares / static_cast<double>(count));
+}
+
+template <class Vector, class Matrix>
+std::optional<double> nees_per_dof(const Vector& error, const Matrix& covariance) {
+  const Eigen::LLT<Matrix> llt(covariance);
+  if (llt.info() != Eigen::Success) return std::nullopt;
+  const double value = error.dot(llt.solve(error)) / static_cast<double>(error.size());
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+PointScore score_points(std::span<const PointPair> points) {
+  if (points.empty()) return {};
+  std::vector<Eigen::Vector2d> est_points;
+  std::vector<Eigen::Vector2d> true_points;
+  double raw = 0.0;
+  for (const PointPair& pair : points) {
+    est_points.push_back(pair.est_point);
+    true_points.push_back(pair.true_point);
+    raw += (pair.est_point - pair.true_point).squaredNorm();
+  }
+  PointScore score;
+  score.rmse = root_mean_square(raw, points.size());
+  if (const std::optional<seif::Pose2> T_true_est = align(est_points, true_points)) {
+    double aligned = 0.0;
+    for (const PointPair& pair : points)
+      aligned += (*T_true_est * pair.est_point - pair.true_point).squaredNorm();
+    score.rmse_aligned = root_mean_square(aligned, points.size());
+  }
+  return score;
+}
+
+PointScore absolute_trajectory_error(std::span<const PosePair> poses) {
+  std::vector<PointPair> points;
+  for (const PosePair& pair : poses)
+    points.push_back({{pair.est_pose.x, pair.est_pose.y}, {pair.true_pose.x, pair.true_pose.y}});
+  return score_points(points);
+}
+
+RelativePoseError relative_pose_error(std::span<const PosePair> poses, double interval) {
+  double translation = 0.0;
+  double rotation = 0.0;
+  std::size_t count = 0;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double wanted = poses[i].t + interval;
+    const auto miss = [&](std::size_t k) { return std::abs(poses[k].t - wanted); };
+    while (j + 1 < poses.size() && miss(j + 1) <= miss(j)) ++j;
+    if (j <= i || miss(j) > 0.1 * interval) continue;
+    const seif::Pose2 true_motion = inverse(poses[i].true_pose) * poses[j].true_pose;
+    const seif::Pose2 est_motion = inverse(poses[i].est_pose) * poses[j].est_pose;
+    const seif::Pose2 error = inverse(true_motion) * est_motion;
+    translation += error.x * error.x + error.y * error.y;
+    rotation += error.theta * error.theta;
+    ++count;
+  }
+  if (count == 0) return {};
+  return {root_mean_square(translation, count), root_mean_square(rotation, count)};
+}
+
+std::optional<double> nees(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+  return nees_per_dof(error, covariance);
+}
+
+std::optional<double> nees(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance) {
+  return nees_per_dof(error, covariance);
+}
+
+Eigen::Vector3d pose_error(const seif::Pose2& est_pose, const seif::Pose2& true_pose) {
+  return {est_pose.x - true_pose.x, est_pose.y - true_pose.y,
+          seif::wrap_angle(est_pose.theta - true_pose.theta)};
+}
+
+std::optional<Percentiles> percentiles(std::span<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::ranges::sort(values);
+  const auto rank = [&](std::size_t percent) { return values[(percent * values.size() + 99) / 100 - 1]; };
+  return Percentiles{rank(50), rank(95), rank(99), values.back()};
+}
+
+std::vector<std::size_t> spread_sample(std::size_t count, std::size_t most) {
+  const std::size_t size = std::min(count, most);
+  std::vector<std::size_t> sample(size);
+  for (std::size_t i = 0; i < size; ++i) sample[i] = i * count / size;
+  return sample;
+}
+
+}  // namespace harness

@@ -1,0 +1,70 @@
+// Scores of trajectories, maps and beliefs against the truth, from plain values. Definitions: docs/scores.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seif/types.hpp"
+
+namespace harness {
+
+/// A pose as estimated and as it was, at one time.
+struct PosePair {
+  double t = 0.0;         // [s]
+  seif::Pose2 est_pose;   // T_world_robot
+  seif::Pose2 true_pose;  // T_world_robot
+};
+
+/// A landmark as estimated and as it is.
+struct PointPair {
+  Eigen::Vector2d est_point = Eigen::Vector2d::Zero();   // p_world [m]
+  Eigen::Vector2d true_point = Eigen::Vector2d::Zero();  // p_world [m]
+};
+
+/// Root mean square distance of points; nothing without points.
+struct PointScore {
+  std::optional<double> rmse;          // [m] as they are
+  std::optional<double> rmse_aligned;  // [m] after the rigid motion that brings them closest to the truth
+};
+
+PointScore score_points(std::span<const PointPair> points);
+
+/// Absolute trajectory error: of the positions.
+PointScore absolute_trajectory_error(std::span<const PosePair> poses);
+
+/// Root mean square of the error of motions over an interval.
+struct RelativePoseError {
+  std::optional<double> translation;  // [m]
+  std::optional<double> rotation;     // [rad]
+};
+
+/// Over all pairs of poses that are `interval` [s] apart, within a tenth. Poses in the order of time.
+RelativePoseError relative_pose_error(std::span<const PosePair> poses, double interval);
+
+/// Normalised estimation error squared for each degree of freedom: error' covariance^-1 error / n. 1 is
+/// right. Nothing if the covariance is not positive definite.
+std::optional<double> nees(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance);
+std::optional<double> nees(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance);
+
+/// Estimate minus truth; the heading's in (-pi, pi]. (3 x 1) [m, m, rad]
+Eigen::Vector3d pose_error(const seif::Pose2& est_pose, const seif::Pose2& true_pose);
+
+/// Of a sample, by the nearest rank: the smallest value that at least so many percent of the values do not
+/// exceed.
+struct Percentiles {
+  double p50 = 0.0;
+  double p95 = 0.0;
+  double p99 = 0.0;
+  double max = 0.0;
+};
+
+/// Nothing without values. Sorts them.
+std::optional<Percentiles> percentiles(std::span<double> values);
+
+/// Indices of at most `most` out of `count` things, spread evenly and always the same, ascending.
+std::vector<std::size_t> spread_sample(std::size_t count, std::size_t most);
+
+}  // namespace harness

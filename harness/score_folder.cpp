@@ -1,0 +1,147 @@
+#include "harness/score_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/csv_reader.hpp"
+#include "harness/log_stream.hpp"
+
+namespace harness {
+
+namespace {
+
+constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+
+/// The poses of a TUM file beside the truth, where that is known.
+std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<PosePair> poses;
+  if (!std::filesystem::exists(folder / "truth.csv")) return poses;
+  TruthReader truth(folder / "truth.csv");
+  CsvReader rows =
+      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
+  while (rows.next()) {
+    const double t = rows.number(0);
+    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
+    const std::optional<TruePose> true_pose = truth.at(t);
+    if (true_pose) poses.push_back({t, {rows.number(1), rows.number(2), theta}, true_pose->T_world_robot});
+  }
+  return poses;
+}
+
+void score_trajectory(const std::filesystem::path& folder, double rpe_interval, EstimatorScore& score) {
+  const std::vector<PosePair> poses = read_poses(folder, score.name);
+  score.trajectory = absolute_trajectory_error(poses);
+  score.rpe = relative_pose_error(poses, rpe_interval);
+}
+
+void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, bool is_known,
+               EstimatorScore& score) {
+  CsvReader rows(folder / (score.name + "_map.csv"),
+                 {{"landmark", "x", "y", "cov_xx", "cov_xy", "cov_yy"}, {}});
+  std::vector<PointPair> points;
+  int mapped = 0;
+  while (rows.next()) {
+    ++mapped;
+    const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
+    const auto it = std::ranges::lower_bound(truth, id, {}, &TrueLandmark::landmark);
+    if (it == truth.end() || it->landmark != id) continue;
+    points.push_back({{rows.number(1), rows.number(2)}, it->position});
+  }
+  score.landmarks_mapped = mapped;
+  if (!is_known) return;
+  score.landmarks = score_points(points);
+  score.landmarks_spurious = mapped - static_cast<int>(points.size());
+}
+
+void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(folder / (score.name + "_steps.csv"),
+                 {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt",
+                   "cov_tt", "blocks_touched", "active_landmarks", "links"},
+                  {}});
+  std::vector<double> blocks_touched;
+  while (rows.next()) {
+    blocks_touched.push_back(rows.number(10));
+    score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
+    score.links = rows.integer(12, 0, most);
+    score.links_max = std::max(score.links_max.value_or(0), *score.links);
+  }
+  score.blocks_touched = percentiles(blocks_touched);
+}
+
+void score_times(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(folder / (score.name + "_times.csv"),
+                 {{"t", "update", "motion", "measurement", "sparsification", "mean_recovery"}, {}});
+  std::vector<double> updates;
+  std::array<std::vector<double>, stage_count> stages;
+  while (rows.next()) {
+    updates.push_back(rows.number(1));
+    for (int stage = 0; stage < stage_count; ++stage) {
+      if (!rows.is_empty(2 + stage))
+        stages.at(static_cast<std::size_t>(stage)).push_back(rows.number(2 + stage));
+    }
+  }
+  score.update_us = percentiles(updates);
+  std::ranges::transform(stages, score.stage_us.begin(),
+                         [](std::vector<double>& us) { return percentiles(us); });
+}
+
+/// Gathers a mean, and remembers the last value.
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  std::optional<double> last;
+
+  void add(const CsvReader& rows, int column) {
+    last.reset();
+    if (rows.is_empty(column)) return;
+    last = rows.number(column);
+    sum += *last;
+    ++count;
+  }
+  std::optional<double> mean() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
+};
+
+void score_consistency(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(
+      folder / (score.name + "_consistency.csv"),
+      {{"t", "nees_pose", "nees_landmark", "landmarks_scored", "landmarks_mapped", "memory_bytes"}, {}});
+  Mean pose;
+  Mean landmark;
+  while (rows.next()) {
+    pose.add(rows, 1);
+    landmark.add(rows, 2);
+    // Without truth nothing is known about the belief.
+    if (rows.is_empty(1) && score.trajectory.rmse) ++score.improper_beliefs;
+    score.memory_bytes = rows.integer(5, 0, most);
+  }
+  score.nees_pose = pose.mean();
+  score.nees_pose_final = pose.last;
+  score.nees_landmark = landmark.mean();
+  score.nees_landmark_final = landmark.last;
+}
+
+}  // namespace
+
+RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
+                      double rpe_interval) {
+  const bool landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
+  const std::vector<TrueLandmark> landmarks =
+      landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
+  RunScore run;
+  run.odometry.name = "odometry";
+  score_trajectory(folder, rpe_interval, run.odometry);
+  for (const std::string& name : estimators) {
+    EstimatorScore score;
+    score.name = name;
+    score_trajectory(folder, rpe_interval, score);
+    score_map(folder, landmarks, landmarks_are_known, score);
+    score_steps(folder, score);
+    score_times(folder, score);
+    score_consistency(folder, score);
+    run.estimators.push_back(std::move(score));
+  }
+  return run;
+}
+
+}  // namespace harness

@@ -1,0 +1,47 @@
+// The score of a run, from the files of its folder and nothing else.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/recorder.hpp"
+#include "harness/score.hpp"
+
+namespace harness {
+
+/// What is not available, because the truth or the filter's covariance is not known, is nothing.
+struct EstimatorScore {
+  std::string name;
+  std::optional<int> landmarks_mapped;        // [-]
+  std::optional<int> landmarks_spurious;      // [-] in the map, and not in the world
+  PointScore landmarks;                       // [m]
+  PointScore trajectory;                      // [m] ATE
+  RelativePoseError rpe;                      // [m, rad]
+  std::optional<double> nees_pose;            // [-] mean over the scoring times
+  std::optional<double> nees_pose_final;      // [-]
+  std::optional<double> nees_landmark;        // [-] mean over the scoring times
+  std::optional<double> nees_landmark_final;  // [-]
+  int improper_beliefs = 0;                   // [-] scoring times at which the belief was no proper Gaussian
+  std::optional<Percentiles> update_us;       // [us]
+  std::array<std::optional<Percentiles>, stage_count> stage_us;  // [us]
+  std::optional<Percentiles> blocks_touched;                     // [-] by an update
+  std::optional<std::int64_t> links;                             // [-] after the last update
+  std::optional<std::int64_t> links_max;                         // [-]
+  std::optional<std::int64_t> active_max;                        // [-]
+  std::optional<std::int64_t> memory_bytes;                      // [byte] at the end
+};
+
+struct RunScore {
+  EstimatorScore odometry;  // dead reckoning; the trajectory alone
+  std::vector<EstimatorScore> estimators;
+};
+
+/// Throws BadInput if a file is missing or broken.
+RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
+                      double rpe_interval);
+
+}  // namespace harness

@@ -1,0 +1,109 @@
+# What ./seifbed and ./test share: install the packages that are missing, configure a preset, build it.
+# Sourced by both. All that it says goes to stderr: stdout is the program's.
+# shellcheck shell=bash
+
+: "${root:?must be the top of the tree}"
+
+# Each package and what it is for.
+packages=(
+  "g++                   C++20 compiler"
+  "cmake                 configures the build"
+  "ninja-build           builds"
+  "pkg-config            finds Bullet and OSMesa"
+  "git                   tells the version"
+  "libbullet-dev         physics, in double precision"
+  "libeigen3-dev         linear algebra"
+  "libyaml-cpp-dev       reads world files"
+  "libfmt-dev            formats text"
+  "libcli11-dev          reads the command line"
+  "nlohmann-json3-dev    writes summaries and schemas"
+  "libgtest-dev          tests"
+  "libosmesa6-dev        renders films without a display"
+)
+
+say() { printf 'set-up: %s\n' "$*" >&2; }
+
+die() {
+  say "error: $*"
+  exit 1
+}
+
+# Fills `missing` with the entries of `packages` that dpkg does not have.
+find_missing() {
+  local installed entry
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]%% *}" 2>/dev/null) || true
+  missing=()
+  for entry in "${packages[@]}"; do
+    [[ $'\n'$installed$'\n' == *$'\n'"installed ${entry%% *}"$'\n'* ]] || missing+=("$entry")
+  done
+}
+
+# Any system but Debian and its kin: the packages have other names there, so that they can only be asked for.
+ask_for_packages() {
+  say "this system has no apt-get; by Debian's names, seifbed needs:"
+  printf '  %s\n' "${packages[@]}" >&2
+  [[ $(type -P cmake) && $(type -P ninja) && $(type -P "${CXX:-c++}") ]] ||
+    die "cmake, ninja or the compiler is missing: install the above and call again"
+  say "cmake, ninja and a compiler are here: going on with them"
+}
+
+install_packages() {
+  local missing apt
+  find_missing
+  ((${#missing[@]})) || return 0
+  say "missing packages:"
+  printf '  %s\n' "${missing[@]}" >&2
+
+  apt=(env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300)
+  if ((EUID != 0)); then
+    [[ $(type -P sudo) ]] || die "installing needs root or sudo. As root: apt-get install ${missing[*]%% *}"
+    apt=(sudo "${apt[@]}")
+  fi
+  say "installing them with ${apt[*]}"
+  "${apt[@]}" update </dev/null >&2 || say "apt-get update failed: trying the package lists at hand"
+  "${apt[@]}" install --yes --no-install-recommends "${missing[@]%% *}" </dev/null >&2 ||
+    die "apt-get could not install: ${missing[*]%% *}"
+}
+
+# Configures unless the folder holds a build of this very tree by these very presets: a tree that was copied or moved
+# with its build folder would else go on building the old one.
+configure() {
+  local preset=$1 folder=$2
+  if [[ $folder/build.ninja -nt $root/CMakePresets.json ]] &&
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+    return 0
+  fi
+  say "configuring $folder"
+  cmake --fresh --preset "$preset" -S "$root" </dev/null >&2 || die "cmake could not configure the build"
+}
+
+# Says nothing when there is nothing to do.
+build() {
+  local folder=$1 plan
+  shift
+  plan=$(ninja -C "$folder" -n "$@" 2>&1) || true
+  [[ $plan != *"no work to do"* ]] || return 0
+  say "building $folder"
+  ninja -C "$folder" "$@" </dev/null >&2 || die "the build failed"
+}
+
+# set_up PRESET [TARGET...]: leaves these targets (default: all) of the preset built and fresh, or exits. Calls on the
+# same preset at the same time take turns.
+set_up() {
+  local preset=$1 folder=$root/build/$1 lock
+  shift
+  [[ -d $folder ]] || mkdir -p "$folder" || die "cannot make $folder"
+  exec {lock}<"$folder"
+  if ! flock --timeout 1 "$lock"; then
+    say "waiting for another call that is building $folder"
+    flock "$lock"
+  fi
+  if [[ $(type -P dpkg-query) && $(type -P apt-get) ]]; then
+    install_packages
+  elif [[ ! -f $folder/build.ninja ]]; then
+    ask_for_packages
+  fi
+  configure "$preset" "$folder"
+  build "$folder" "$@"
+  exec {lock}<&-
+}

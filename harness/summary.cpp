@@ -1,0 +1,87 @@
+#include "harness/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace harness {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, stage_count> stage_names = {"motion", "measurement", "sparsification",
+                                                              "mean_recovery"};
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+template <class Integer>
+Json count(const std::optional<Integer>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json percentiles(const std::optional<Percentiles>& values) {
+  if (!values) return {{"p50", nullptr}, {"p95", nullptr}, {"p99", nullptr}, {"max", nullptr}};
+  return {{"p50", number(values->p50)},
+          {"p95", number(values->p95)},
+          {"p99", number(values->p99)},
+          {"max", number(values->max)}};
+}
+
+void add_trajectory(Json& json, const EstimatorScore& score) {
+  json["ate_rmse_m"] = number(score.trajectory.rmse);
+  json["ate_rmse_aligned_m"] = number(score.trajectory.rmse_aligned);
+  json["rpe_trans_m"] = number(score.rpe.translation);
+  json["rpe_rot_rad"] = number(score.rpe.rotation);
+}
+
+Json estimator(const EstimatorScore& score, const std::string& failure) {
+  Json json;
+  json["landmarks_mapped"] = count(score.landmarks_mapped);
+  json["landmarks_spurious"] = count(score.landmarks_spurious);
+  json["landmark_rmse_m"] = number(score.landmarks.rmse);
+  json["landmark_rmse_aligned_m"] = number(score.landmarks.rmse_aligned);
+  add_trajectory(json, score);
+  json["nees_pose"] = number(score.nees_pose);
+  json["nees_pose_final"] = number(score.nees_pose_final);
+  json["nees_landmark"] = number(score.nees_landmark);
+  json["nees_landmark_final"] = number(score.nees_landmark_final);
+  json["improper_beliefs"] = score.improper_beliefs;
+  json["update_us"] = percentiles(score.update_us);
+  for (std::size_t stage = 0; stage < stage_count; ++stage) {
+    if (score.stage_us[stage]) json["stage_us"][stage_names[stage]] = percentiles(score.stage_us[stage]);
+  }
+  json["blocks_touched"] = percentiles(score.blocks_touched);
+  json["links"] = count(score.links);
+  json["links_max"] = count(score.links_max);
+  json["active_max"] = count(score.active_max);
+  json["memory_bytes"] = count(score.memory_bytes);
+  json["failure"] = failure.empty() ? Json(nullptr) : Json(failure);
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  json["world"] = summary.world;
+  json["seed"] = summary.seed;
+  json["version"] = summary.version;
+  json["duration_s"] = number(summary.duration);
+  json["updates"] = summary.updates;
+  json["interrupted"] = summary.interrupted;
+  json["trajectory_hash"] = summary.trajectory_hash;
+  json["realtime_factor"] = number(summary.realtime_factor);
+  json["rpe_interval_s"] = number(summary.rpe_interval);
+  json["odometry"] = Json::object();
+  add_trajectory(json["odometry"], summary.score.odometry);
+  json["estimators"] = Json::object();
+  for (std::size_t i = 0; i < summary.score.estimators.size(); ++i) {
+    const EstimatorScore& score = summary.score.estimators[i];
+    json["estimators"][score.name] = estimator(score, summary.failures.at(i));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace harness

@@ -1,0 +1,28 @@
+// summary.json: what came out of a run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "harness/score_folder.hpp"
+
+namespace harness {
+
+struct Summary {
+  std::string world;
+  std::uint64_t seed = 0;
+  std::string version;       // of the program
+  double duration = 0.0;     // [s] from the start to the last event
+  std::int64_t updates = 0;  // [-] scans
+  bool interrupted = false;
+  std::string trajectory_hash;
+  double realtime_factor = 0.0;  // [-] duration over the time that it took
+  double rpe_interval = 0.0;     // [s]
+  RunScore score;
+  std::vector<std::string> failures;  // one for each of score.estimators; empty: none
+};
+
+/// Values that are not available, or not finite, are null.
+std::string to_json(const Summary& summary);
+
+}  // namespace harness

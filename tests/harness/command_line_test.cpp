@@ -1,0 +1,161 @@
+// The program as people call it: exit codes, and what goes to which stream.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "fixtures.hpp"
+
+namespace harness {
+namespace {
+
+using test::read_file;
+using test::TemporaryFolder;
+using test::write_file;
+
+struct Called {
+  int exit_code = 0;
+  std::string output;
+  std::string errors;
+};
+
+/// Calls the program inside a folder.
+Called call(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string command =
+      "cd '" + folder.path().string() + "' && '" SEIFBED_PROGRAM "' " + arguments + " 2>errors";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot call the program");
+  Called called;
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) called.output += static_cast<char>(c);
+  called.exit_code = WEXITSTATUS(pclose(pipe));
+  called.errors = read_file(folder / "errors");
+  return called;
+}
+
+void write_world(const TemporaryFolder& folder) {
+  write_file(folder / "world.yaml",
+             "name: small\n"
+             "seed: 5\n"
+             "duration_s: 10\n"
+             "landmarks: {generators: [{type: uniform, count: 20}]}\n"
+             "drive: {mode: commands, file: mine/told.csv}\n"
+             "estimators: {ekf: {}, seif_report: {}}\n");
+  std::filesystem::create_directories(folder / "mine");
+  write_file(folder / "mine" / "told.csv", "t,v,omega\n0,0.5,0.1\n5,0.3,-0.4\n");
+}
+
+std::string hash_of(const std::string& json) { return nlohmann::json::parse(json).at("trajectory_hash"); }
+
+TEST(CommandLine, JsonIsAllThatIsPrinted) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const Called run = call(folder, "run world.yaml --json");
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
+  EXPECT_EQ(run.output, read_file(folder / "runs" / "small-5" / "summary.json"));
+  EXPECT_EQ(nlohmann::json::parse(run.output).at("seed"), 5);
+}
+
+TEST(CommandLine, ARunFolderRunsAndReplaysAgainWithoutItsSources) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::string hash = hash_of(call(folder, "run world.yaml --json --out first").output);
+  std::filesystem::remove_all(folder / "mine");
+  EXPECT_EQ(hash_of(call(folder, "run first/world.yaml --json --out second").output), hash);
+  EXPECT_EQ(hash_of(call(folder, "replay second --json --out third").output), hash);
+  EXPECT_EQ(hash_of(call(folder, "replay third --json --out fourth").output), hash);
+}
+
+TEST(CommandLine, AReplayTakesTheEstimatorsThatItIsTold) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out run");
+  const Called replay =
+      call(folder, "replay run --estimators ekf --set estimators.ekf.odometry_sd_factor=3 --json");
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  const nlohmann::json estimators = nlohmann::json::parse(replay.output).at("estimators");
+  EXPECT_EQ(estimators.size(), 1U);
+  EXPECT_TRUE(estimators.contains("ekf"));
+  EXPECT_NE(read_file(folder / "runs" / "small-replay" / "ekf.tum"), read_file(folder / "run" / "ekf.tum"));
+}
+
+TEST(CommandLine, ALogWithoutWorldRunsTheBaselineAndTheReportsFilter) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out run");
+  std::filesystem::remove(folder / "run" / "world.yaml");
+  const Called replay = call(folder, "replay run --json --seed 5");
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  const nlohmann::json estimators = nlohmann::json::parse(replay.output).at("estimators");
+  EXPECT_EQ(estimators.size(), 2U);
+  EXPECT_TRUE(estimators.contains("ekf") && estimators.contains("seif_report"));
+}
+
+TEST(CommandLine, QuietPrintsNothing) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const Called run = call(folder, "run world.yaml --quiet");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.output + run.errors, "");
+}
+
+TEST(CommandLine, AnOutputThatCannotBeWrittenIsAnError) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  EXPECT_EQ(call(folder, "run world.yaml --json > /dev/full").exit_code, 1);
+}
+
+struct BadCall {
+  const char* arguments;
+  const char* complaint;
+};
+
+class BadCalls : public testing::TestWithParam<BadCall> {};
+
+TEST_P(BadCalls, EndWithCodeTwoAndAReason) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  std::filesystem::create_directories(folder / "full" / "something");
+  const Called called = call(folder, GetParam().arguments);
+  EXPECT_EQ(called.exit_code, 2);
+  EXPECT_EQ(called.output, "");
+  EXPECT_NE(called.errors.find(GetParam().complaint), std::string::npos) << called.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, BadCalls,
+    testing::Values(BadCall{"", "subcommand is required"}, BadCall{"run", "WORLD is required"},
+                    BadCall{"run nothing.yaml", "nothing.yaml"}, BadCall{"run world.yaml --bogus", "--bogus"},
+                    BadCall{"run world.yaml --seed -1", "seed=-1"},
+                    BadCall{"run world.yaml --out full", "not empty"},
+                    BadCall{"run world.yaml --set estimators.ekf.bogus=1", "unknown key 'bogus'"},
+                    BadCall{"run world.yaml --duration -3", "duration_s"},
+                    BadCall{"run world.yaml --set drive.pose_from=nobody", "nobody"},
+                    BadCall{"validate nothing.yaml", "nothing.yaml"},
+                    BadCall{"replay nothing", "no such folder"},
+                    BadCall{"replay full", "odometry.csv: cannot be read"}));
+
+TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
+  const TemporaryFolder folder;
+  for (const std::string command : {"run", "replay", "validate", "schema", "estimators"}) {
+    const Called help = call(folder, command + " --help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;
+  }
+  EXPECT_EQ(call(folder, "--version").output.substr(0, 8), "seifbed ");
+}
+
+TEST(CommandLine, SchemaIsJsonAndEstimatorsAreListed) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(nlohmann::json::parse(call(folder, "schema").output).is_object());
+  const std::string list = call(folder, "estimators").output;
+  const seif::Registry registry = seif::standard_estimators();
+  for (const seif::EstimatorType& type : registry.types())
+    EXPECT_NE(list.find(type.name + "\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace harness

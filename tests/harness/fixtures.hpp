@@ -1,0 +1,51 @@
+// Worlds, folders and an estimator for the tests of the harness.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "harness/live_loop.hpp"
+#include "harness/run.hpp"
+#include "seif/registry.hpp"
+#include "worlds/world.hpp"
+
+namespace harness::test {
+
+/// A folder of its own that goes when the test ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::filesystem::path& path);
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+/// A square of 6 m to drive round, with twelve landmarks outside, for 20 s; estimators `ekf` and
+/// `seif_report`.
+worlds::World small_world();
+
+/// Runs it live in a new folder.
+RunResult run_live(const worlds::World& world, const std::filesystem::path& folder);
+
+/// Feeds a folder to the world's estimators and writes to another folder.
+RunResult replay(const worlds::World& world, const std::filesystem::path& from,
+                 const std::filesystem::path& to);
+
+/// The estimators of the library, and `dead_reckoning`, whose map stays empty and which throws after
+/// `fail_after_scans` if that is not zero.
+seif::Registry test_registry();
+
+/// A choice with the defaults of its type.
+worlds::EstimatorChoice choice(const std::string& type);
+
+}  // namespace harness::test

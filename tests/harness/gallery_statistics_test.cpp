@@ -1,0 +1,99 @@
+// What the gallery's worlds are to show, over enough seeds to tell.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "fixtures.hpp"
+#include "harness/estimator_schemas.hpp"
+#include "worlds/load.hpp"
+
+namespace harness {
+namespace {
+
+worlds::World gallery_world(const std::string& name, std::vector<std::string> overrides) {
+  const worlds::LoadResult loaded =
+      worlds::load_world(SEIFBED_SOURCE_DIR "/worlds/" + name + ".yaml", overrides,
+                         estimator_schemas(seif::standard_estimators()));
+  EXPECT_TRUE(loaded.problems.empty());
+  return loaded.world.value();
+}
+
+struct MeanNees {
+  double pose = 0.0;
+  double landmark = 0.0;
+};
+
+/// Means over `seeds` runs of the estimator's NEES per degree of freedom when each run ends.
+std::vector<MeanNees> final_nees(const std::string& world_name, const std::vector<std::string>& overrides,
+                                 int seeds) {
+  std::vector<MeanNees> means;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const test::TemporaryFolder folder;
+    worlds::World world = gallery_world(world_name, overrides);
+    world.seed = static_cast<std::uint64_t>(seed);
+    const RunResult result = test::run_live(world, folder / "run");
+    EXPECT_EQ(exit_code(result), 0) << result.error;
+    means.resize(result.summary.score.estimators.size());
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      means[i].pose += result.summary.score.estimators[i].nees_pose_final.value() / seeds;
+      means[i].landmark += result.summary.score.estimators[i].nees_landmark_final.value_or(0.0) / seeds;
+    }
+  }
+  return means;
+}
+
+TEST(Gallery, CourtyardHoldsTheEkfInItsBandAndTheReportsSeifFarOutside) {
+  const std::vector<MeanNees> nees = final_nees("courtyard", {"sensors.encoders.calibrated=true"}, 20);
+  const auto [ekf, seif_report] = std::pair(nees.at(0), nees.at(1));
+  // chi-square over 20 runs: 60 degrees of freedom for the pose. The landmarks of one run share their errors,
+  // so that they are counted as one: 40.
+  EXPECT_GT(ekf.pose, 40.48 / 60);
+  EXPECT_LT(ekf.pose, 83.30 / 60);
+  EXPECT_GT(ekf.landmark, 24.43 / 40);
+  EXPECT_LT(ekf.landmark, 59.34 / 40);
+  EXPECT_GT(seif_report.pose, 30.0);
+  EXPECT_GT(seif_report.landmark, 30.0);
+}
+
+// A sensor that sees nothing leaves dead reckoning with its covariance.
+const std::vector<std::string> blind{"sensors.landmark_sensor.max_range_m=0.05", "estimators={ekf: {}}",
+                                     "sensors.encoders.calibrated=true"};
+
+TEST(Gallery, SlipperyHasOdometryErrorsThatTheNoiseDoesNotExplain) {
+  std::vector<std::string> without_patches = blind;
+  without_patches.push_back("physics.patches=[]");
+  const double with_slip = final_nees("slippery", blind, 10).at(0).pose;
+  const double without_slip = final_nees("slippery", without_patches, 10).at(0).pose;
+  EXPECT_GT(without_slip, 16.79 / 30);  // chi-square, 30 degrees of freedom, 95 %
+  EXPECT_LT(without_slip, 46.98 / 30);
+  EXPECT_GT(with_slip, 10.0);
+}
+
+TEST(Gallery, UmbmarkHasSystematicErrorsThatCalibrationTakesAway) {
+  std::vector<std::string> as_it_is = blind;
+  as_it_is.back() = "sensors.encoders.calibrated=false";
+  EXPECT_GT(final_nees("umbmark", as_it_is, 10).at(0).pose, 10.0);
+  const double calibrated = final_nees("umbmark", blind, 10).at(0).pose;
+  EXPECT_GT(calibrated, 16.79 / 30);
+  EXPECT_LT(calibrated, 46.98 / 30);
+}
+
+class GalleryWorld : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(All, GalleryWorld,
+                         testing::Values("courtyard", "report2002", "loop", "orchard", "forest", "walls",
+                                         "slippery", "umbmark"),
+                         [](const auto& world) { return std::string(world.param); });
+
+TEST_P(GalleryWorld, RunsAndSeesLandmarks) {
+  const test::TemporaryFolder folder;
+  const RunResult result = test::run_live(gallery_world(GetParam(), {"duration_s=10"}), folder / "run");
+  EXPECT_EQ(exit_code(result), 0) << result.error;
+  ASSERT_FALSE(result.summary.score.estimators.empty());
+  EXPECT_GE(result.summary.score.estimators.back().landmarks_mapped.value(), 2);
+}
+
+}  // namespace
+}  // namespace harness
