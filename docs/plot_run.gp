@@ -1,7 +1,7 @@
 # Draws a run folder: the way that was driven and the maps that came of it, with their 2-sigma ellipses.
 #   gnuplot -e "run='runs/courtyard-1'; out='courtyard.png'" docs/plot_run.gp
 # Colours: Okabe and Ito's palette, which the colour-blind can tell apart.
-set terminal pngcairo size 1500,760 font "DejaVu Sans,11" background "white"
+set terminal pngcairo size 1400,720 font "DejaVu Sans,11" background "white"
 set output out
 set datafile separator ","
 set size ratio -1
@@ -26,7 +26,7 @@ landmarks = run . "/landmarks.csv"
 set multiplot layout 1,2
 do for [estimator in "ekf seif_report"] {
   colour = estimator eq "ekf" ? "#0072B2" : "#D55E00"
-  set title estimator noenhanced font ",14"
+  set title estimator noenhanced font ",14" offset 0,-0.3
   plot tum("odometry") with lines lw 1 lc "#AAAAAA" title "odometry", \
        tum("truth") with lines lw 2 lc "#000000" title "truth", \
        tum(estimator) with lines lw 1.5 lc rgb colour title "estimate" noenhanced, \

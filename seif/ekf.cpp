@@ -104,7 +104,7 @@ bool Ekf::update_known() {
   llt.matrixL().solveInPlace(v_);
   mu_.head(n).noalias() += W * v_;
   mu_(2) = wrap_angle(mu_(2));
-  Sigma_.topLeftCorner(n, n).selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+  downdate_(Sigma_, W);
   blocks_touched_ += std::int64_t{landmark_count() + 1} * (landmark_count() + 2) / 2;
   return true;
 }
@@ -130,9 +130,10 @@ void Ekf::add_landmark(const Observation& observation) {
 void Ekf::reserve(int landmarks) {
   if (row_of(landmarks) <= mu_.size()) return;
   const int room = std::max(landmarks, landmark_count() + landmark_count() / 2);
-  const int rows = (row_of(room) + 7) / 8 * 8;  // whole cache lines
+  constexpr int tile = SymmetricDowndate::tile;
+  const int rows = (row_of(room) + tile - 1) / tile * tile;
   mu_.conservativeResize(rows);
-  Sigma_.conservativeResize(rows, rows);
+  Sigma_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
   columns_.resize(rows, 5);
 }
 

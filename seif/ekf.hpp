@@ -6,6 +6,7 @@
 
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
+#include "seif/symmetric_downdate.hpp"
 
 namespace seif {
 
@@ -55,6 +56,7 @@ class Ekf final : public Estimator {
   Eigen::MatrixXd W_;                                 // scratch (3+2N x 2k)
   Eigen::MatrixXd S_;                                 // scratch (2k x 2k)
   Eigen::VectorXd v_;                                 // scratch (2k x 1)
+  SymmetricDowndate downdate_;
   std::vector<Linearised> known_;
   std::vector<const Observation*> pending_;
   std::vector<const Observation*> unknown_;

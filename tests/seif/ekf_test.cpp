@@ -8,6 +8,7 @@
 #include "dense_oracle.hpp"
 #include "seif/measurement_update.hpp"
 #include "seif/motion_update.hpp"
+#include "seif/symmetric_downdate.hpp"
 
 namespace seif {
 namespace {
@@ -119,6 +120,23 @@ TEST(Ekf, TakesANewLandmarkThatIsSeenTwiceInOneScan) {
   apart.measurement_update({.t = 0, .observations = {second}}, ignore);
   EXPECT_EQ(together.mu(), apart.mu());
   EXPECT_EQ(together.Sigma(), apart.Sigma());
+}
+
+TEST(SymmetricDowndate, SubtractsTheProductFromTheLowerTriangleOfAnySize) {
+  RandomDrive random(9);
+  const auto any = [&] { return random.uniform(-1, 1); };
+  SymmetricDowndate downdate;
+  for (const int n : {1, 3, 8, 23, 24, 43, 100}) {
+    for (const int width : {2, 6, 40}) {
+      const Eigen::MatrixXd W = Eigen::MatrixXd::NullaryExpr(n, width, any);
+      Eigen::MatrixXd Sigma = Eigen::MatrixXd::NullaryExpr(112, 112, any);
+      const Eigen::MatrixXd expected = Sigma.topLeftCorner(n, n) - W * W.transpose();
+      downdate(Sigma, W);
+      const Eigen::MatrixXd difference = Sigma.topLeftCorner(n, n) - expected;
+      EXPECT_LT(difference.triangularView<Eigen::Lower>().toDenseMatrix().norm(), 1e-12)
+          << n << " x " << width;
+    }
+  }
 }
 
 TEST(Ekf, CountsTheLinksAsTheReportDoes) {
