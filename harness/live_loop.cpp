@@ -15,10 +15,6 @@ namespace harness {
 
 namespace {
 
-/// A larger map gets covariances in its file for a spread sample of this size: each costs a solve over the
-/// whole map.
-constexpr std::size_t most_map_covariances = 2000;  // [-]
-
 constexpr double rounding = 1e-9;  // [-] of a scoring interval
 
 bool is_finite(const seif::Pose2& pose) {
@@ -184,6 +180,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   blocks_touched_[index] = counts.blocks_touched;
   record.active_landmarks = counts.active_landmarks;
   record.links = counts.links;
+  record.relocations = counts.relocations;
   record.times = times_[index];
   times_[index] = {};
   recorder_.update(index, record);
@@ -266,13 +263,9 @@ void LiveLoop::write_map(std::size_t index) {
       records.push_back({landmark.landmark, landmark.mean, {}});
       ids.push_back(landmark.landmark);
     }
-    const std::vector<std::size_t> sample = spread_sample(ids.size(), most_map_covariances);
-    std::vector<seif::LandmarkId> sampled_ids;
-    for (const std::size_t i : sample) sampled_ids.push_back(ids[i]);
-    const std::optional<seif::MarginalCovariances> belief =
-        estimator.filter->marginal_covariances(sampled_ids);
-    for (std::size_t k = 0; belief && k < sample.size(); ++k) {
-      if (belief->landmarks.at(k).allFinite()) records[sample[k]].covariance = belief->landmarks[k];
+    const std::optional<seif::MarginalCovariances> belief = estimator.filter->marginal_covariances(ids);
+    for (std::size_t k = 0; belief && k < records.size(); ++k) {
+      if (belief->landmarks.at(k).allFinite()) records[k].covariance = belief->landmarks[k];
     }
   });
   recorder_.map(index, records);

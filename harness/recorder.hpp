@@ -34,6 +34,7 @@ struct UpdateRecord {
   std::int64_t blocks_touched = 0;                // [-] by this update
   int active_landmarks = 0;                       // [-]
   std::int64_t links = 0;                         // [-]
+  std::int64_t relocations = 0;                   // [-] so far
   UpdateTimes times;
 };
 

@@ -57,13 +57,14 @@ void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
   CsvReader rows(folder / (score.name + "_steps.csv"),
                  {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt",
-                   "cov_tt", "blocks_touched", "active_landmarks", "links"},
+                   "cov_tt", "blocks_touched", "active_landmarks", "links", "relocations"},
                   {}});
   std::vector<double> blocks_touched;
   while (rows.next()) {
     blocks_touched.push_back(rows.number(10));
     score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
     score.links = rows.integer(12, 0, most);
+    score.relocations = rows.integer(13, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
   }
   score.blocks_touched = percentiles(blocks_touched);

@@ -31,6 +31,7 @@ struct EstimatorScore {
   std::optional<Percentiles> blocks_touched;                     // [-] by an update
   std::optional<std::int64_t> links;                             // [-] after the last update
   std::optional<std::int64_t> links_max;                         // [-]
+  std::optional<std::int64_t> relocations;                       // [-] in all
   std::optional<std::int64_t> active_max;                        // [-]
   std::optional<std::int64_t> memory_bytes;                      // [byte] at the end
 };

@@ -18,6 +18,7 @@ packages=(
   "libcli11-dev          reads the command line"
   "nlohmann-json3-dev    writes summaries and schemas"
   "libgtest-dev          tests"
+  "libbenchmark-dev      benchmarks"
   "libosmesa6-dev        renders films without a display"
 )
 

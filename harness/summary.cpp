@@ -55,6 +55,7 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["blocks_touched"] = percentiles(score.blocks_touched);
   json["links"] = count(score.links);
   json["links_max"] = count(score.links_max);
+  json["relocations"] = count(score.relocations);
   json["active_max"] = count(score.active_max);
   json["memory_bytes"] = count(score.memory_bytes);
   json["failure"] = failure.empty() ? Json(nullptr) : Json(failure);

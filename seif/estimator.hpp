@@ -34,6 +34,8 @@ struct Counts {
   std::int64_t blocks_touched = 0;  // [-] blocks of the state read or written, summed over all updates
   int active_landmarks = 0;         // [-] landmarks with a link to the robot
   std::int64_t links = 0;           // [-] the report's count: robot's links + landmark pairs
+  std::int64_t relocations =
+      0;  // [-] times the robot was marginalised out and put back, since the filter was made
 };
 
 /// A landmark of the map.

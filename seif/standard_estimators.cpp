@@ -6,6 +6,7 @@
 
 #include "seif/eif.hpp"
 #include "seif/ekf.hpp"
+#include "seif/eseif.hpp"
 #include "seif/registry.hpp"
 #include "seif/seif.hpp"
 
@@ -97,6 +98,29 @@ EstimatorType seif_gauge_free() {
       }};
 }
 
+EstimatorType eseif() {
+  const EseifOptions defaults;
+  OptionSpec bound = theta_x;
+  bound.fallback = std::int64_t{defaults.theta_x};
+  bound.help = "Links of the robot above which it is marginalised out and relocated [-].";
+  const OptionSpec relocation_landmarks{
+      .key = "relocation_landmarks",
+      .fallback = std::int64_t{defaults.relocation_landmarks},
+      .min = 2,
+      .max = 1000,
+      .help = "Observations that are held back to relocate the robot from [-]."};
+  return {
+      .name = "eseif",
+      .help =
+          "The exactly sparse filter of Walter, Eustice and Leonard with exact mean: not in constant time.",
+      .options = {bound, relocation_landmarks},
+      .make = [bound, relocation_landmarks](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<Eseif>(
+            setup, EseifOptions{.theta_x = integer(options, bound),
+                                .relocation_landmarks = integer(options, relocation_landmarks)});
+      }};
+}
+
 }  // namespace
 
 Registry standard_estimators() {
@@ -116,6 +140,7 @@ Registry standard_estimators() {
                            "oracle for consistent sparsification.",
                            SparsificationRule::modified));
   registry.add(seif_gauge_free());
+  registry.add(eseif());
   return registry;
 }
 

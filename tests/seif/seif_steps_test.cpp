@@ -12,6 +12,7 @@
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
 #include "seif/motion_update.hpp"
+#include "seif/relocation.hpp"
 #include "seif/sparsification.hpp"
 
 namespace seif {
@@ -198,6 +199,23 @@ TEST_P(SeifSteps, SparsificationKeepsTheMarginalOfTheMap) {
   choose_to_drop(state, DropOrder::weakest_link, 2, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::report, dropped));
   EXPECT_LT(relative(map_covariance(state), before), 1e-8);  // two inverses
+}
+
+TEST_P(SeifSteps, MarginalisingTheRobotOutKeepsTheBeliefOverTheMap) {
+  const auto n = 2 * state.landmark_count();
+  DenseBelief before = oracle::dense(state);
+  oracle::recover_mean(before);
+  const Eigen::MatrixXd Sigma = before.H.inverse();
+  ASSERT_TRUE(marginalise_robot(state));
+
+  const DenseBelief after = oracle::dense(state);
+  EXPECT_EQ(state.active_count(), 0);
+  EXPECT_TRUE(after.H.topRows(3).isZero(0.0));
+  EXPECT_TRUE(state.full_r().head<3>().isZero(0.0));
+  const Eigen::MatrixXd H_mm = after.H.bottomRightCorner(n, n);
+  const Eigen::VectorXd map_mean = after.mu.tail(n) + H_mm.ldlt().solve(state.full_r().tail(n));
+  EXPECT_LT(relative(H_mm.inverse(), Sigma.bottomRightCorner(n, n)), 1e-8);  // inverses
+  EXPECT_LT((map_mean - before.mu.tail(n)).norm(), 1e-9);
 }
 
 TEST_P(SeifSteps, CoordinateDescentReachesTheExactMeanIfRepeated) {

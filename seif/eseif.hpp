@@ -1,0 +1,50 @@
+// The exactly sparse extended information filter.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "seif/estimator.hpp"
+#include "seif/information_state.hpp"
+
+namespace seif {
+
+struct EseifOptions {
+  int theta_x = 10;              // [-] links of the robot above which it is marginalised out and relocated
+  int relocation_landmarks = 4;  // [-] observations held back for that; two at least
+};
+
+/// Walter, Eustice, Leonard, "Exactly sparse extended information filters for feature-based SLAM", IJRR 2007.
+/// No link is ever cut: when the robot would have too many, the observations are split, it is marginalised
+/// out after the first part, and put back from the second part alone. That is exact, and forgets the odometry
+/// up to there. The mean is recovered exactly, so an update does not take constant time.
+class Eseif final : public Estimator {
+ public:
+  Eseif(const EstimatorSetup& setup, const EseifOptions& options);
+
+  void motion_update(const Odometry& odometry) override;
+  void measurement_update(const Scan& scan, const StageDone& done) override;
+  Pose2 pose() const override { return state_.pose(); }
+  Counts counts() const override;
+  std::size_t memory_bytes() const override { return state_.memory_bytes(); }
+  std::vector<LandmarkEstimate> map() const override;
+  std::optional<MarginalCovariances> marginal_covariances(
+      std::span<const LandmarkId> landmarks) const override;
+
+  const InformationState& state() const { return state_; }
+
+ private:
+  bool overflows(const Scan& scan) const;
+  void hold_back(const Scan& scan);
+  void solve(double t);
+
+  InformationState state_;
+  EseifOptions options_;
+  Pose2 T_robot_sensor_;
+  std::int64_t relocations_ = 0;
+  std::vector<Observation> known_;      // of landmarks in the map, by bearing
+  std::vector<Observation> now_;        // taken in before the robot is marginalised out
+  std::vector<Observation> held_back_;  // from which it is relocated
+};
+
+}  // namespace seif

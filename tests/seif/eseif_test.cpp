@@ -1,0 +1,70 @@
+#include "seif/eseif.hpp"
+
+#include <gtest/gtest.h>
+
+#include "dense_oracle.hpp"
+#include "ring_drive.hpp"
+#include "seif/eif.hpp"
+
+namespace seif {
+namespace {
+
+using test::RingDrive;
+
+TEST(Eseif, EqualsTheDenseInformationFilterUntilItRelocates) {
+  RingDrive drive_sparse(40, 1);
+  RingDrive drive_dense(40, 1);
+  Eseif sparse(drive_sparse.setup(), {.theta_x = 1000});
+  Eif dense(drive_dense.setup());
+  for (int k = 0; k < 100; ++k) {
+    drive_sparse.step(sparse);
+    drive_dense.step(dense);
+  }
+  EXPECT_EQ(sparse.counts().relocations, 0);
+  EXPECT_LT((sparse.state().full_mu() - dense.mu()).norm(), 1e-8);
+}
+
+TEST(Eseif, BoundsTheLinksOfTheRobotAndIsExactlySparse) {
+  RingDrive drive(60, 2);
+  Eseif filter(drive.setup(), {.theta_x = 12, .relocation_landmarks = 4});
+  for (int k = 0; k < 300; ++k) drive.step(filter);
+  const Counts counts = filter.counts();
+  EXPECT_GT(counts.relocations, 10);
+  EXPECT_LT(counts.relocations, 300);
+  EXPECT_LE(counts.active_landmarks, 12);
+  const Eigen::MatrixXd Omega = oracle::symmetric(filter.state().full_Omega());
+  EXPECT_EQ(Omega.llt().info(), Eigen::Success);
+  const std::int64_t all_links = 60 * 61 / 2;
+  EXPECT_LT(counts.links, all_links / 2);
+}
+
+TEST(Eseif, NeverClaimsToKnowMoreThanTheDenseFilter) {
+  // It throws odometry away and approximates nothing, so that what it believes is wider in every direction,
+  // but for the points at which the two linearise.
+  RingDrive drive_sparse(40, 3);
+  RingDrive drive_dense(40, 3);
+  Eseif sparse(drive_sparse.setup(), {});
+  Eif dense(drive_dense.setup());
+  for (int k = 0; k < 200; ++k) {
+    drive_sparse.step(sparse);
+    drive_dense.step(dense);
+  }
+  ASSERT_GT(sparse.counts().relocations, 0);
+  const Eigen::MatrixXd Sigma_sparse = oracle::symmetric(sparse.state().full_Omega()).inverse();
+  const Eigen::MatrixXd Sigma_dense = dense.Omega().inverse();
+  // The smallest ratio of the two variances over all directions: Sigma_sparse v = lambda Sigma_dense v.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ratio(Sigma_sparse, Sigma_dense);
+  EXPECT_GT(ratio.eigenvalues().minCoeff(), 0.95);
+  EXPECT_GT(Sigma_sparse.trace(), Sigma_dense.trace());
+}
+
+TEST(Eseif, TakesAScanOfNewLandmarksOnlyWithoutRelocating) {
+  RingDrive drive(60, 4);
+  Eseif filter(drive.setup(), {.theta_x = 3});
+  drive.step(filter);
+  EXPECT_EQ(filter.counts().relocations, 0);
+  EXPECT_GT(filter.counts().active_landmarks, 3);
+}
+
+}  // namespace
+}  // namespace seif

@@ -1,0 +1,87 @@
+// Times of an update, by filter and size of map. `docs/benchmarks.md` has a table and the command.
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+#include <random>
+
+#include "ring_drive.hpp"
+#include "seif/ekf.hpp"
+#include "seif/seif.hpp"
+#include "seif/symmetric_downdate.hpp"
+
+namespace seif {
+namespace {
+
+using test::RingDrive;
+
+/// One motion and one measurement update, with the map full: the robot has driven a whole round before.
+template <class Filter, class... Options>
+void update(benchmark::State& state, const Options&... options) {
+  RingDrive drive(static_cast<int>(state.range(0)), 1);
+  Filter filter(drive.setup(), options...);
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
+  const Counts before = filter.counts();
+  std::int64_t observations = 0;
+  for (auto _ : state) {
+    drive.advance();
+    observations += static_cast<std::int64_t>(drive.scan().observations.size());
+    const auto begin = std::chrono::steady_clock::now();
+    filter.motion_update(drive.odometry());
+    filter.measurement_update(drive.scan(), test::ignore);
+    state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  const auto updates = static_cast<double>(state.iterations());
+  state.counters["observations"] = static_cast<double>(observations) / updates;
+  state.counters["blocks"] =
+      static_cast<double>(filter.counts().blocks_touched - before.blocks_touched) / updates;
+  state.counters["bytes"] = static_cast<double>(filter.memory_bytes());
+}
+
+void ekf_update(benchmark::State& state) { update<Ekf>(state); }
+BENCHMARK(ekf_update)
+    ->Arg(50)
+    ->Arg(200)
+    ->Arg(1000)
+    ->Arg(2000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+void seif_report_update(benchmark::State& state) { update<Seif>(state, SeifOptions{}); }
+BENCHMARK(seif_report_update)
+    ->Arg(50)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(100'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+/// W of 16 columns, as eight observations give.
+Eigen::MatrixXd thin_matrix(Eigen::Index rows) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);
+  return Eigen::MatrixXd::NullaryExpr(rows, 16, [&] { return uniform(random); });
+}
+
+void symmetric_downdate(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd W = thin_matrix(n);
+  Eigen::MatrixXd Sigma = Eigen::MatrixXd::Zero((n + 7) / 8 * 8, (n + 7) / 8 * 8);
+  SymmetricDowndate downdate;
+  for (auto _ : state) downdate(Sigma, W);
+}
+BENCHMARK(symmetric_downdate)->Arg(2003)->Unit(benchmark::kMicrosecond);
+
+void eigen_rank_update(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd W = thin_matrix(n);
+  Eigen::MatrixXd Sigma = Eigen::MatrixXd::Zero(n, n);
+  for (auto _ : state) Sigma.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+}
+BENCHMARK(eigen_rank_update)->Arg(2003)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace seif
+
+BENCHMARK_MAIN();
