@@ -1,6 +1,8 @@
 #include "sim/near_solids.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace sim {
 
@@ -46,7 +48,7 @@ void NearSolids::stream(const Eigen::Vector2d& p_world_robot) {
       ++entry;
     } else {
       stepped_.bullet().removeCollisionObject(&entry->second);
-      entry = present_.erase(entry);
+      spare_.push_back(present_.extract(entry++));
     }
   }
   for (const int solid : wanted_) {
@@ -56,8 +58,22 @@ void NearSolids::stream(const Eigen::Vector2d& p_world_robot) {
   }
 }
 
+/// A new object, in a node of the map that was taken out before if there is one: in the long run nothing is
+/// allocated.
+btCollisionObject& NearSolids::new_object(int solid) {
+  if (spare_.empty()) {
+    return present_[solid];
+  }
+  Present::node_type node = std::move(spare_.back());
+  spare_.pop_back();
+  node.key() = solid;
+  std::destroy_at(&node.mapped());
+  std::construct_at(&node.mapped());
+  return present_.insert(std::move(node)).position->second;
+}
+
 void NearSolids::insert(int solid) {
-  btCollisionObject& object = present_[solid];
+  btCollisionObject& object = new_object(solid);
   object.setCollisionShape(&solids_.shape(solid));
   object.setWorldTransform(solids_.T_world_solid(solid));
   // Bullet takes an object that it is handed for awake, and would compute its bounding box at every step.

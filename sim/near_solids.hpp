@@ -29,15 +29,19 @@ class NearSolids {
   void follow(const Eigen::Vector2d& p_world_robot);
 
  private:
+  using Present = std::map<int, btCollisionObject>;  // by solid: the same order in every run
+
   void stream(const Eigen::Vector2d& p_world_robot);
   void insert(int solid);
+  btCollisionObject& new_object(int solid);
 
   const Solids& solids_;
   const SensingWorld& sensing_;
   SteppedWorld& stepped_;
   double reach_;                                     // [m] half size of the square that is kept filled
   std::optional<Eigen::Vector2d> p_world_streamed_;  // where the robot was when it was filled
-  std::map<int, btCollisionObject> present_;         // by solid: the same order in every run
+  Present present_;
+  std::vector<Present::node_type> spare_;  // of objects that were taken out
   std::vector<int> wanted_;
 };
 
