@@ -7,6 +7,7 @@
 
 #include "sim/drive_limits.hpp"
 #include "sim/ground_friction.hpp"
+#include "worlds/geometry.hpp"
 
 namespace sim {
 
@@ -16,9 +17,6 @@ namespace {
 // full brakes (at 0.3 * 0.18 m / 0.1 m * g = 5 m/s^2 with the standard robot) and leave the wheels their
 // grip.
 constexpr double centre_of_mass_share = 0.3;
-
-// A wheel is drawn, and weighed, as a disk of half its radius across.
-constexpr double wheel_width_share = 0.5;
 
 void check(const worlds::Robot& robot) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
@@ -73,7 +71,7 @@ btRigidBody make_chassis(const worlds::Robot& robot, btCompoundShape& shape, con
 /// A solid disk about its y axis.
 btVector3 wheel_inertia(const worlds::Robot& robot) {
   const double r2 = robot.wheel_radius * robot.wheel_radius;
-  const double width = wheel_width_share * robot.wheel_radius;
+  const double width = worlds::wheel_width(robot);
   const double across = robot.wheel_mass * (r2 / 4.0 + width * width / 12.0);
   return btVector3(across, robot.wheel_mass * r2 / 2.0, across);
 }
@@ -81,18 +79,11 @@ btVector3 wheel_inertia(const worlds::Robot& robot) {
 }  // namespace
 
 ChassisBox chassis_box(const worlds::Robot& robot) {
-  const double half_width = 0.5 * (robot.track + wheel_width_share * robot.wheel_radius);
+  const worlds::Footprint footprint = worlds::footprint(robot);
   // Below the axle and above the ground: if the robot tips, this edge slides on the ground and holds it.
   const double bottom = 0.5 * std::min(robot.wheel_radius, robot.caster.radius);
-  return {btVector3(std::min(-robot.wheel_radius, robot.caster.offset - robot.caster.radius), -half_width,
-                    bottom),
-          btVector3(std::max(robot.wheel_radius, robot.caster.offset + robot.caster.radius), half_width,
-                    2.0 * robot.wheel_radius)};
-}
-
-double footprint_radius(const worlds::Robot& robot) {
-  const ChassisBox box = chassis_box(robot);
-  return std::hypot(std::max(-box.min.x(), box.max.x()), box.max.y());
+  return {btVector3(footprint.min.x(), footprint.min.y(), bottom),
+          btVector3(footprint.max.x(), footprint.max.y(), 2.0 * robot.wheel_radius)};
 }
 
 RobotBody::Wheel::Wheel(const worlds::Robot& robot, btSphereShape& shape, btRigidBody& chassis,

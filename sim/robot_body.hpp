@@ -27,9 +27,6 @@ struct ChassisBox {
 };
 ChassisBox chassis_box(const worlds::Robot& robot);
 
-/// The largest distance of a point of the chassis from the middle of the axle, on the plane. [m]
-double footprint_radius(const worlds::Robot& robot);
-
 class RobotBody {
  public:
   /// Puts the robot at its start, at rest. Keeps a reference to the world.

@@ -7,6 +7,7 @@
 #include "sim/sensing_world.hpp"
 #include "sim/solids.hpp"
 #include "sim/stepped_world.hpp"
+#include "worlds/geometry.hpp"
 
 namespace sim {
 
@@ -29,7 +30,7 @@ struct Simulator::Impl {
         sensing(solids),
         stepped(world.robot.mass),
         robot(world.robot, world.physics, stepped),
-        near_solids(solids, sensing, stepped, footprint_radius(world.robot)) {}
+        near_solids(solids, sensing, stepped, worlds::footprint_radius(world.robot)) {}
 
   int step_rate;  // [Hz]
   Solids solids;

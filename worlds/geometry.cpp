@@ -112,10 +112,18 @@ double largest_radius(const std::vector<Landmark>& landmarks) {
   return largest;
 }
 
+double wheel_width(const Robot& robot) { return 0.5 * robot.wheel_radius; }
+
+Footprint footprint(const Robot& robot) {
+  const double half_width = 0.5 * (robot.track + wheel_width(robot));
+  const Caster& caster = robot.caster;
+  return {{std::min(-robot.wheel_radius, caster.offset - caster.radius), -half_width},
+          {std::max(robot.wheel_radius, caster.offset + caster.radius), half_width}};
+}
+
 double footprint_radius(const Robot& robot) {
-  const double half_width = 0.5 * robot.track + 0.25 * robot.wheel_radius;
-  const double reach = std::max(robot.wheel_radius, std::abs(robot.caster.offset) + robot.caster.radius);
-  return std::hypot(half_width, reach);
+  const Footprint chassis = footprint(robot);
+  return std::hypot(std::max(-chassis.min.x(), chassis.max.x()), chassis.max.y());
 }
 
 }  // namespace worlds

@@ -46,8 +46,18 @@ double length(const std::vector<Eigen::Vector2d>& points, bool closed);
 /// The radius of the largest landmark, 0 if there are none. [m]
 double largest_radius(const std::vector<Landmark>& landmarks);
 
-/// The radius about the middle of the axle within which the robot stays, whatever its heading: the corner of
-/// a chassis as wide as the wheels, which are half their radius across, and as long as wheels and caster. [m]
+/// How wide a wheel is: half its radius. [m]
+double wheel_width(const Robot& robot);
+
+/// What the chassis covers of the ground, in the robot frame: as wide as the wheels, as long as wheels and
+/// caster.
+struct Footprint {
+  Eigen::Vector2d min;  // [m]
+  Eigen::Vector2d max;  // [m]
+};
+Footprint footprint(const Robot& robot);
+
+/// The radius about the middle of the axle within which the robot stays, whatever its heading. [m]
 double footprint_radius(const Robot& robot);
 
 }  // namespace worlds

@@ -98,6 +98,27 @@ TEST_P(SeifSteps, MotionUpdateLeavesTheResidualWhereTheRobotHasNone) {
   EXPECT_LT((state.full_r() - r).norm(), 1e-9);
 }
 
+TEST_P(SeifSteps, Equation36HasTheSignOfTheInformationVectorWrong) {
+  ASSERT_TRUE(solve_mean(state));  // r = 0: both sides speak of the same mean
+  const DenseBelief before = oracle::dense(state);
+  const Odometry u = random.odometry();
+  const PredictedPose predicted = predict_pose(state.pose(), u);
+  EXPECT_EQ((predicted.J_wrt_pose - Eigen::Matrix3d::Identity()).determinant(),
+            0.0);  // S_x' A S_x, which it inverts
+
+  Eigen::MatrixXd Psi = Eigen::MatrixXd::Identity(before.H.rows(), before.H.cols());
+  Psi.topLeftCorner<3, 3>() = predicted.J_wrt_pose.inverse();
+  const Eigen::MatrixXd H_prime = Psi.transpose() * before.H * Psi;
+  DenseBelief after = before;
+  oracle::motion_update(after, u);
+  const Eigen::MatrixXd dH = H_prime - after.H;
+  const Eigen::VectorXd moved_by_motion = after.H * (after.mu - before.mu);
+  const Eigen::VectorXd as_printed = before.b - (dH - before.H + H_prime) * before.mu + moved_by_motion;
+  const Eigen::VectorXd mended = before.b - (dH + before.H - H_prime) * before.mu + moved_by_motion;
+  EXPECT_LT(relative(mended, after.b), 1e-8);  // inverses
+  EXPECT_GT(relative(as_printed, after.b), 1e-3);
+}
+
 TEST_P(SeifSteps, MeasurementUpdateMatchesTheDenseFormAndActivates) {
   DenseBelief belief = oracle::dense(state);
   const Pose2 T_world_sensor = state.pose() * T_robot_sensor;
