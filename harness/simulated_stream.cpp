@@ -81,7 +81,7 @@ void make_symmetric(Matrix& covariance) {
 
 SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose)
     : world_(world),
-      simulator_(world),
+      simulator_(sim::make_simulator(world)),
       steering_pose_(std::move(steering_pose)),
       encoders_(make_encoders(world)),
       landmark_sensor_(make_landmark_sensor(world)),
@@ -90,7 +90,7 @@ SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steeri
                return way_is_clear(p_robot_goal, clearance);
              }),
       line_of_sight_([this](const Eigen::Vector2d& p_world_sensor, seif::LandmarkId landmark) {
-        return simulator_.line_of_sight(p_world_sensor, landmark);
+        return simulator_->line_of_sight(p_world_sensor, landmark);
       }),
       description_(describe()),
       last_step_(std::llround(world.duration * world.physics.step_rate)),
@@ -121,7 +121,7 @@ LogDescription SimulatedStream::describe() const {
 double SimulatedStream::t() const { return static_cast<double>(step_) / world_.physics.step_rate; }
 
 TruePose SimulatedStream::truth() const {
-  const sim::RobotState robot = simulator_.robot();
+  const sim::RobotState robot = simulator_->robot();
   return {t(), {robot.position.x(), robot.position.y(), robot.heading}, robot.left_wheel, robot.right_wheel};
 }
 
@@ -130,7 +130,7 @@ bool SimulatedStream::way_is_clear(const Eigen::Vector2d& p_robot_goal, double c
   const Eigen::Vector2d p_world_goal = T_world_robot * p_robot_goal;
   const Eigen::Vector2d free = 0.5 * world_.ground_size - Eigen::Vector2d::Constant(clearance);
   if ((p_world_goal.cwiseAbs().array() > free.array()).any()) return false;
-  return simulator_.path_is_clear({T_world_robot.x, T_world_robot.y}, p_world_goal, clearance);
+  return simulator_->path_is_clear({T_world_robot.x, T_world_robot.y}, p_world_goal, clearance);
 }
 
 void SimulatedStream::steer() {
@@ -152,7 +152,7 @@ bool SimulatedStream::next(Event& event) {
     }
     if (step_ >= last_step_) return false;
     steer();
-    simulator_.step(command_);
+    simulator_->step(command_);
     ++step_;
   }
 }
@@ -169,8 +169,8 @@ void SimulatedStream::scan(ScanEvent& event) {
   ++scan_clock_.ticks;
   event.truth = truth();
   const seif::Pose2 T_world_sensor = event.truth->T_world_robot * description_.T_robot_sensor;
-  simulator_.landmarks_within({T_world_sensor.x, T_world_sensor.y}, world_.landmark_sensor.max_range,
-                              in_range_);
+  simulator_->landmarks_within({T_world_sensor.x, T_world_sensor.y}, world_.landmark_sensor.max_range,
+                               in_range_);
   candidates_.clear();
   for (const int index : in_range_)
     candidates_.push_back({index, world_.landmarks[static_cast<std::size_t>(index)].position});

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,7 +52,7 @@ class SimulatedStream final : public Stream {
   LogDescription describe() const;
 
   worlds::World world_;
-  sim::Simulator simulator_;
+  std::unique_ptr<sim::Simulator> simulator_;
   SteeringPose steering_pose_;
   sensors::WheelEncoders encoders_;
   sensors::LandmarkSensor landmark_sensor_;

@@ -1,6 +1,8 @@
 #include "sim/drive_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace sim {
 
@@ -12,7 +14,21 @@ double approach(double wanted, double previous, double limit, double step) {
 
 }  // namespace
 
+void check_drive(const worlds::Robot& robot) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!positive(robot.wheel_radius) || !positive(robot.track)) {
+    throw std::invalid_argument("simulator: the robot's wheel radius and track must be positive");
+  }
+  if (!positive(robot.max_speed) || !positive(robot.max_turn_rate) || !positive(robot.max_acceleration) ||
+      !positive(robot.max_turn_acceleration)) {
+    throw std::invalid_argument("simulator: the robot's limits of speed and acceleration must be positive");
+  }
+}
+
 Command limited(const Command& wanted, const Command& previous, const worlds::Robot& robot, double dt) {
+  if (!std::isfinite(wanted.v) || !std::isfinite(wanted.omega)) {
+    throw std::invalid_argument("simulator: a velocity command is not finite");
+  }
   return {approach(wanted.v, previous.v, robot.max_speed, robot.max_acceleration * dt),
           approach(wanted.omega, previous.omega, robot.max_turn_rate, robot.max_turn_acceleration * dt)};
 }

@@ -6,8 +6,13 @@
 
 namespace sim {
 
+/// Throws std::invalid_argument for a wheel radius, a track or a limit of speed or acceleration that is not
+/// positive.
+void check_drive(const worlds::Robot& robot);
+
 /// What a step of dt [s] makes of `wanted` after `previous`: speed and turn rate within their limits, and
-/// neither changed by more than its acceleration allows.
+/// neither changed by more than its acceleration allows. Throws std::invalid_argument for one that is not
+/// finite.
 Command limited(const Command& wanted, const Command& previous, const worlds::Robot& robot, double dt);
 
 /// How fast the wheels turn when they roll without slip. [rad/s]

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace sim {
 
@@ -43,6 +45,14 @@ bool meets_rectangle(const Segment& way, const Eigen::Vector2d& half_size) {
 }
 
 }  // namespace
+
+Eigen::Vector2d direction(double heading) { return {std::cos(heading), std::sin(heading)}; }
+
+double heading_of(const Eigen::Vector2d& vector) {
+  const double heading = std::atan2(vector.y(), vector.x());
+  // atan2 of (-0, -1) is -pi, which the convention leaves out.
+  return heading <= -std::numbers::pi ? std::numbers::pi : heading;
+}
 
 double distance(const Segment& way, const Disk& disk) {
   return std::max(0.0, distance_to_point(way, disk.centre) - disk.radius);

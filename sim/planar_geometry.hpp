@@ -1,9 +1,15 @@
-// Distances on the plane between a straight way and what stands on it.
+// Headings, and distances on the plane between a straight way and what stands on it.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace sim {
+
+/// The unit vector that points along a heading [rad].
+Eigen::Vector2d direction(double heading);
+
+/// The heading of a vector that is not zero. [rad] in (-pi, pi]
+double heading_of(const Eigen::Vector2d& vector);
 
 /// A straight way; start and end may be one point.
 struct Segment {

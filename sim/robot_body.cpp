@@ -7,6 +7,7 @@
 
 #include "sim/drive_limits.hpp"
 #include "sim/ground_friction.hpp"
+#include "sim/planar_geometry.hpp"
 #include "worlds/geometry.hpp"
 
 namespace sim {
@@ -18,25 +19,16 @@ namespace {
 // grip.
 constexpr double centre_of_mass_share = 0.3;
 
-void check(const worlds::Robot& robot) {
+worlds::Robot checked(const worlds::Robot& robot) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  check_drive(robot);
   if (!positive(robot.wheel_mass) || !(robot.mass > 2.0 * robot.wheel_mass) || !positive(robot.mass)) {
     throw std::invalid_argument(
         "simulator: the robot must weigh more than its two wheels, and those something");
   }
-  if (!positive(robot.wheel_radius) || !positive(robot.track) || !positive(robot.caster.radius)) {
-    throw std::invalid_argument(
-        "simulator: the robot's wheel radius, track and caster radius must be positive");
+  if (!positive(robot.caster.radius) || !positive(robot.motor_torque)) {
+    throw std::invalid_argument("simulator: the robot's caster radius and torque must be positive");
   }
-  if (!positive(robot.motor_torque) || !positive(robot.max_speed) || !positive(robot.max_turn_rate) ||
-      !positive(robot.max_acceleration) || !positive(robot.max_turn_acceleration)) {
-    throw std::invalid_argument(
-        "simulator: the robot's torque, speed and acceleration limits must be positive");
-  }
-}
-
-worlds::Robot checked(const worlds::Robot& robot) {
-  check(robot);
   return robot;
 }
 
@@ -149,9 +141,6 @@ void RobotBody::add_to_world(Wheel& wheel) {
 }
 
 void RobotBody::drive(const Command& command, double dt) {
-  if (!std::isfinite(command.v) || !std::isfinite(command.omega)) {
-    throw std::invalid_argument("simulator: a velocity command is not finite");
-  }
   command_ = limited(command, command_, robot_, dt);
   const WheelSpeeds speeds = wheel_speeds(command_, robot_);
   const double impulse = robot_.motor_torque * dt;
@@ -180,10 +169,7 @@ RobotState RobotBody::state() const {
   const btVector3 p_chassis_axle = T_world_chassis.getBasis() * -p_robot_chassis(robot_);
   RobotState state;
   state.position = position();
-  state.heading = std::atan2(forward.y(), forward.x());
-  if (state.heading <= -std::numbers::pi) {
-    state.heading = std::numbers::pi;  // atan2 of (-0, -1) is -pi, which the convention leaves out
-  }
+  state.heading = heading_of({forward.x(), forward.y()});
   state.left_wheel = left_.angle();
   state.right_wheel = right_.angle();
   state.v = chassis_.getVelocityInLocalPoint(p_chassis_axle).dot(forward);

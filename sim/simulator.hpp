@@ -1,8 +1,5 @@
-// The physical truth: a differential-drive robot in Bullet, and lines of sight between it and the landmarks.
-//
-// Two collision worlds. The stepped one holds the ground, the robot and the solid things near it, streamed in
-// and out as it moves; the sensing one holds every landmark and obstacle and is never stepped. So neither a
-// step nor a scan costs more in a world with more landmarks.
+// The physical truth: a differential-drive robot, and what stands around it. What the rest of the program
+// sees of it is this; the world says which engine is behind it.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,37 +39,39 @@ struct SimulatorCounts {
 /// One simulated world. Same world, same build: same bits. Not thread-safe; one thread for each.
 class Simulator {
  public:
-  /// Copies what it needs of the world. Throws std::invalid_argument for what physics cannot work with: a
-  /// mass, length or limit that is not positive, a wall of fewer than two points.
-  explicit Simulator(const worlds::World& world);
-  ~Simulator();
+  virtual ~Simulator() = default;
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
   /// Advances the world by one physics step, 1 / step_rate. Throws std::invalid_argument for a command that
   /// is not finite.
-  void step(const Command& command);
+  virtual void step(const Command& command) = 0;
 
-  RobotState robot() const;
+  virtual RobotState robot() const = 0;
 
   /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces what `out`
   /// held.
-  void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const;
+  virtual void landmarks_within(const Eigen::Vector2d& p_world, double radius,
+                                std::vector<int>& out) const = 0;
 
   /// Whether nothing but the landmark itself stands between p_world_sensor and the near face of that
-  /// landmark.
-  bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const;
+  /// landmark. Throws std::out_of_range for an index that no landmark has.
+  virtual bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const = 0;
 
-  /// Whether a disk of `radius` [m] can be swept from one point to the other without touching anything solid,
-  /// at the start or later.
-  bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
-                     double radius) const;
+  /// Whether a disk of `radius` [m] can be swept from one point to the other without touching a landmark or
+  /// an obstacle, at the start or later.
+  virtual bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
+                             double radius) const = 0;
 
-  SimulatorCounts counts() const;
+  virtual SimulatorCounts counts() const = 0;
 
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+ protected:
+  Simulator() = default;
 };
+
+/// The engine that the world asks for; it copies what it needs of the world. Throws std::invalid_argument for
+/// what the engine cannot work with: a step rate, mass, length or limit that is not positive, a wall of fewer
+/// than two points, and in the kinematic one any obstacle or patch.
+std::unique_ptr<Simulator> make_simulator(const worlds::World& world);
 
 }  // namespace sim

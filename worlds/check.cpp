@@ -63,6 +63,21 @@ void check_rates(const Check& check) {
   check_rate("sensors.landmark_sensor.rate_hz", check.world.landmark_sensor.rate);
 }
 
+/// What has no effect in the kinematic engine is refused there.
+void check_engine(const Check& check) {
+  const Physics& physics = check.world.physics;
+  if (!check.sound({"physics.engine"}) || physics.engine != Engine::kinematic) return;
+  const auto refuse_if_any = [&](std::string_view path, bool any) {
+    if (!any || !check.sound({path})) return;
+    check.refuse(path, fmt::format("the kinematic engine knows no {}: take them out, or set physics.engine "
+                                   "to bullet",
+                                   path.substr(path.rfind('.') + 1)));
+  };
+  refuse_if_any("obstacles.boxes", !check.world.boxes.empty());
+  refuse_if_any("obstacles.walls", !check.world.walls.empty());
+  refuse_if_any("physics.patches", !physics.patches.empty());
+}
+
 void check_pose_source(const Check& check) {
   if (!check.sound({"drive.pose_from", "estimators"})) return;
   std::vector<std::string> names = {"truth", "odometry"};
@@ -239,6 +254,7 @@ void check_world(const Node& document, const World& world, std::vector<Problem>&
   check_start(check);
   check_path(check);
   check_landmarks(check);
+  check_engine(check);
 }
 
 }  // namespace worlds

@@ -22,6 +22,7 @@ constexpr double most_tries = 1e6;         // [-]
 
 constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
                                                         "serpentine", "explore",   "commands"};
+constexpr std::array<std::string_view, 2> engine_names = {"bullet", "kinematic"};
 constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_disk", "grid",
                                                            "ring",    "clusters",     "corridor"};
 
@@ -93,6 +94,11 @@ void describe_robot(Fields& fields, Robot& robot) {
 }
 
 void describe_physics(Fields& fields, Physics& physics) {
+  std::string engine = name_of(engine_names, physics.engine);
+  fields.choice("engine", engine, {engine_names.begin(), engine_names.end()},
+                "bullet: rigid bodies that touch and hide each other; kinematic, for many fast runs: exact "
+                "arcs, no slip, landmarks that are points, no obstacles or patches");
+  physics.engine = enum_of<Engine>(engine_names, engine);
   fields.integer("step_rate_hz", physics.step_rate, between(50, highest_step_rate), "physics steps");
   fields.number("friction", physics.friction, between(0, 10), "between wheels and ground");
   fields.list(

@@ -24,14 +24,38 @@ class PointGrid {
   }
 
   /// Whether any(index, position) is true for a point within `reach` of p. It is asked about some beyond,
-  /// too.
+  /// too, and may be asked about one twice.
   template <class Predicate>
   bool any_near(const Eigen::Vector2d& p, const Predicate& any) const {
-    const std::int64_t column = cell_of(p.x());
-    const std::int64_t row = cell_of(p.y());
-    for (std::int64_t x = column - 1; x <= column + 1; ++x) {
-      for (std::int64_t y = row - 1; y <= row + 1; ++y) {
-        for (std::int32_t i = heads_[bucket(x, y)]; i != nobody; i = next_[static_cast<std::size_t>(i)]) {
+    const Cell middle = cell_of(p);
+    return any_in_cells({middle.column - 1, middle.row - 1}, {middle.column + 1, middle.row + 1}, any);
+  }
+
+  /// The same for any distance; the work grows with the square of it over `reach`.
+  template <class Predicate>
+  bool any_within(const Eigen::Vector2d& p, double distance, const Predicate& any) const {
+    const Eigen::Vector2d half_size(distance, distance);
+    return any_in_cells(cell_of(p - half_size), cell_of(p + half_size), any);
+  }
+
+ private:
+  static constexpr std::int32_t nobody = -1;
+
+  struct Cell {
+    std::int64_t column;
+    std::int64_t row;
+  };
+
+  Cell cell_of(const Eigen::Vector2d& p) const {
+    return {static_cast<std::int64_t>(std::floor(p.x() / cell_)),
+            static_cast<std::int64_t>(std::floor(p.y() / cell_))};
+  }
+
+  template <class Predicate>
+  bool any_in_cells(const Cell& first, const Cell& last, const Predicate& any) const {
+    for (std::int64_t x = first.column; x <= last.column; ++x) {
+      for (std::int64_t y = first.row; y <= last.row; ++y) {
+        for (std::int32_t i = heads_[bucket({x, y})]; i != nobody; i = next_[static_cast<std::size_t>(i)]) {
           if (any(static_cast<std::size_t>(i), points_[static_cast<std::size_t>(i)])) return true;
         }
       }
@@ -39,23 +63,16 @@ class PointGrid {
     return false;
   }
 
- private:
-  static constexpr std::int32_t nobody = -1;
-
-  std::int64_t cell_of(double coordinate) const {
-    return static_cast<std::int64_t>(std::floor(coordinate / cell_));
-  }
-
   /// Large odd factors spread neighbouring cells (Teschner et al., "Optimized Spatial Hashing for Collision
   /// Detection of Deformable Objects", 2003).
-  std::size_t bucket(std::int64_t column, std::int64_t row) const {
-    const std::uint64_t hash =
-        static_cast<std::uint64_t>(column) * 73856093U ^ static_cast<std::uint64_t>(row) * 19349663U;
+  std::size_t bucket(const Cell& cell) const {
+    const std::uint64_t hash = static_cast<std::uint64_t>(cell.column) * 73856093U ^
+                               static_cast<std::uint64_t>(cell.row) * 19349663U;
     return static_cast<std::size_t>(hash) & (heads_.size() - 1);
   }
 
   void link(std::size_t index) {
-    std::int32_t& head = heads_[bucket(cell_of(points_[index].x()), cell_of(points_[index].y()))];
+    std::int32_t& head = heads_[bucket(cell_of(points_[index]))];
     next_[index] = head;
     head = static_cast<std::int32_t>(index);
   }

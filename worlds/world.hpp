@@ -47,7 +47,13 @@ struct FrictionPatch {
   double friction = 0.1;                          // [-]
 };
 
+enum class Engine {
+  bullet,     // rigid bodies: contacts, friction and slip; landmarks and obstacles block motion and sight
+  kinematic,  // exact arcs without slip; landmarks are points that block nothing; no obstacles, no patches
+};
+
 struct Physics {
+  Engine engine = Engine::bullet;
   int step_rate = 240;                 // [Hz]
   double friction = 0.9;               // [-] Coulomb coefficient between wheels and ground
   std::vector<FrictionPatch> patches;  // where they overlap the later one counts

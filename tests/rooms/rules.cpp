@@ -84,7 +84,8 @@ const std::array<Library, 5>& libraries() {
        },
        [](View word) { return word.starts_with("bt") && is_upper(word, 2); },
        [](View path) {
-         return is_inside(path, "sim") && !is_inside(path, "sim/render") && path != "sim/simulator.hpp";
+         return is_inside(path, "sim") && !is_inside(path, "sim/render") && path != "sim/simulator.hpp" &&
+                !path.starts_with("sim/kinematic_simulator.");
        }},
       {"OSMesa", [](View include) { return include.starts_with("GL/") || include.starts_with("EGL/"); },
        [](View word) { return word.starts_with("OSMesa") || word.starts_with("GL_"); },

@@ -84,6 +84,7 @@ TEST(Libraries, MayBeUsedAtHome) {
 TEST(Libraries, StayAtHome) {
   const std::vector<std::pair<std::string, std::string>> strays = {
       {"sim/simulator.hpp", "btBulletDynamicsCommon.h"},
+      {"sim/kinematic_simulator.cpp", "btBulletDynamicsCommon.h"},
       {"sim/render/scene.cpp", "LinearMath/btVector3.h"},
       {"harness/run.cpp", "BulletCollision/CollisionShapes/btBoxShape.h"},
       {"tests/sim/simulator_test.cpp", "bullet/btBulletCollisionCommon.h"},

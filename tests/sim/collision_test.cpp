@@ -16,20 +16,20 @@ const Eigen::Vector2d far_away(2000.0, -1500.0);
 
 /// Where the robot is after ten seconds of driving on.
 RobotState after_driving(const worlds::World& world, double v) {
-  Simulator simulator(world);
-  drive_for(simulator, world, 10.0, {v, 0.0});
-  return simulator.robot();
+  const auto simulator = make_simulator(world);
+  drive_for(*simulator, world, 10.0, {v, 0.0});
+  return simulator->robot();
 }
 
 TEST(Collision, ALandmarkFarFromTheOriginStopsTheRobot) {
   worlds::World world;
   world.robot.start.position = far_away;
   world.landmarks.push_back({far_away + Eigen::Vector2d(3.0, 0.0), 0.1});
-  Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   double furthest = 0.0;
   for (int i = 0; i < 4 * world.physics.step_rate; ++i) {
-    simulator.step({1.0, 0.0});
-    furthest = std::max(furthest, simulator.robot().position.x() - far_away.x());
+    simulator->step({1.0, 0.0});
+    furthest = std::max(furthest, simulator->robot().position.x() - far_away.x());
   }
   EXPECT_NEAR(furthest, 3.0 - 0.1 - world.robot.wheel_radius, contact_tolerance);
 }
@@ -83,14 +83,14 @@ TEST(Collision, NothingIsPassedThroughInACrowdedRoom) {
     world.boxes.push_back(
         {{3.2 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 2.0 * angle}, {0.3, 0.1}, 0.5});
   }
-  Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   double travelled = 0.0;
-  Eigen::Vector2d previous = simulator.robot().position;
+  Eigen::Vector2d previous = simulator->robot().position;
   for (int i = 0; i < 60 * world.physics.step_rate; ++i) {
     const int part = i / 150;
-    simulator.step({part % 3 == 2 ? -2.0 : 2.0, 1.5 * std::sin(part)});
-    const Eigen::Vector2d p = simulator.robot().position;
-    ASSERT_TRUE(simulator.path_is_clear(p, p, world.robot.wheel_radius - contact_tolerance)) << i;
+    simulator->step({part % 3 == 2 ? -2.0 : 2.0, 1.5 * std::sin(part)});
+    const Eigen::Vector2d p = simulator->robot().position;
+    ASSERT_TRUE(simulator->path_is_clear(p, p, world.robot.wheel_radius - contact_tolerance)) << i;
     ASSERT_LT(p.cwiseAbs().maxCoeff(), 4.0);
     travelled += (p - previous).norm();
     previous = p;
@@ -106,9 +106,9 @@ TEST(Collision, SolidsAreThereHoweverFarTheRobotHasDriven) {
     world.landmarks.push_back({{i, -0.5}, 0.1});
   }
   world.boxes.push_back({{{30.0, 0.0}, 0.0}, {0.2, 0.5}, 1.0});
-  Simulator simulator(world);
-  drive_for(simulator, world, 35.0, {1.0, 0.0});
-  EXPECT_NEAR(simulator.robot().position.x(), 30.0 - 0.1 - world.robot.wheel_radius, contact_tolerance);
+  const auto simulator = make_simulator(world);
+  drive_for(*simulator, world, 35.0, {1.0, 0.0});
+  EXPECT_NEAR(simulator->robot().position.x(), 30.0 - 0.1 - world.robot.wheel_radius, contact_tolerance);
 }
 
 }  // namespace

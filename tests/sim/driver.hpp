@@ -1,6 +1,8 @@
 // What the tests of motion share: driving a simulator and reading it like a robot with perfect encoders.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -14,6 +16,14 @@ inline void drive_for(Simulator& simulator, const worlds::World& world, double s
   for (std::int64_t i = 0; i < steps; ++i) {
     simulator.step(command);
   }
+}
+
+/// A state to the last bit.
+inline std::array<std::uint64_t, 7> bits(const RobotState& s) {
+  return {std::bit_cast<std::uint64_t>(s.position.x()), std::bit_cast<std::uint64_t>(s.position.y()),
+          std::bit_cast<std::uint64_t>(s.heading),      std::bit_cast<std::uint64_t>(s.left_wheel),
+          std::bit_cast<std::uint64_t>(s.right_wheel),  std::bit_cast<std::uint64_t>(s.v),
+          std::bit_cast<std::uint64_t>(s.omega)};
 }
 
 /// What the wheels say of the way of the axle's middle. [m]

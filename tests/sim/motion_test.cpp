@@ -20,13 +20,13 @@ struct Spin {
 };
 
 Spin spin(const worlds::World& world, double turn, const Command& command) {
-  Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   Spin result;
   double previous = world.robot.start.heading;
   RobotState state;
   while (std::abs(result.true_turn) < turn && state.t < 200.0) {
-    simulator.step(command);
-    state = simulator.robot();
+    simulator->step(command);
+    state = simulator->robot();
     result.true_turn += std::remainder(state.heading - previous, 2.0 * pi);
     previous = state.heading;
   }
@@ -74,11 +74,11 @@ TEST(Motion, EncodersReadASpinOfRobotsOfOtherSizes) {
 
 TEST(Motion, EncodersReadAStraightLineWithin1e3) {
   const worlds::World world;
-  Simulator simulator(world);
-  while (simulator.robot().position.x() < 10.0 && simulator.robot().t < 30.0) {
-    simulator.step({1.0, 0.0});
+  const auto simulator = make_simulator(world);
+  while (simulator->robot().position.x() < 10.0 && simulator->robot().t < 30.0) {
+    simulator->step({1.0, 0.0});
   }
-  const RobotState state = simulator.robot();
+  const RobotState state = simulator->robot();
   EXPECT_GE(state.position.x(), 10.0);
   EXPECT_NEAR(wheel_travel(state, world.robot) / state.position.x(), 1.0, 1e-3);
   EXPECT_NEAR(state.position.y(), 0.0, 1e-3);
@@ -86,10 +86,10 @@ TEST(Motion, EncodersReadAStraightLineWithin1e3) {
 
 TEST(Motion, DrivesWhatItIsToldWithinOnePerCent) {
   const worlds::World world;
-  Simulator simulator(world);
-  drive_for(simulator, world, 5.0, {0.6, 0.4});
-  EXPECT_NEAR(simulator.robot().v, 0.6, 0.006);
-  EXPECT_NEAR(simulator.robot().omega, 0.4, 0.004);
+  const auto simulator = make_simulator(world);
+  drive_for(*simulator, world, 5.0, {0.6, 0.4});
+  EXPECT_NEAR(simulator->robot().v, 0.6, 0.006);
+  EXPECT_NEAR(simulator->robot().omega, 0.4, 0.004);
 }
 
 void expect_holds_still(Simulator& simulator, const worlds::World& world) {
@@ -102,24 +102,24 @@ void expect_holds_still(Simulator& simulator, const worlds::World& world) {
 
 TEST(Motion, HoldsStillFromTheStartAndAfterDriving) {
   const worlds::World world;
-  Simulator simulator(world);
-  expect_holds_still(simulator, world);
-  drive_for(simulator, world, 5.0, {0.5, 0.7});
-  drive_for(simulator, world, 2.0, {0.0, 0.0});
-  expect_holds_still(simulator, world);
+  const auto simulator = make_simulator(world);
+  expect_holds_still(*simulator, world);
+  drive_for(*simulator, world, 5.0, {0.5, 0.7});
+  drive_for(*simulator, world, 2.0, {0.0, 0.0});
+  expect_holds_still(*simulator, world);
 }
 
 // The motors follow the limited command to within what the contacts give: a few mm/s, and accelerations over
 // a tenth of a second to a few per cent.
 TEST(Motion, KeepsItsSpeedAndAccelerationLimits) {
   const worlds::World world;
-  Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   const int window = world.physics.step_rate / 10;
-  std::vector<RobotState> states{simulator.robot()};
+  std::vector<RobotState> states{simulator->robot()};
   for (int i = 0; i < 12 * world.physics.step_rate; ++i) {
     const double sign = (i / (3 * world.physics.step_rate)) % 2 == 0 ? 1.0 : -1.0;
-    simulator.step({sign * 100.0, sign * 100.0});
-    states.push_back(simulator.robot());
+    simulator->step({sign * 100.0, sign * 100.0});
+    states.push_back(simulator->robot());
   }
   double fastest = 0.0, fastest_turn = 0.0, hardest = 0.0, hardest_turn = 0.0;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -143,11 +143,11 @@ TEST(Motion, KeepsItsSpeedAndAccelerationLimits) {
 TEST(Motion, IsAsAccurateFarFromTheOrigin) {
   worlds::World here, there;
   there.robot.start.position = {1e5, -1e5};
-  Simulator near(here), far(there);
-  drive_for(near, here, 10.0, {0.8, 0.3});
-  drive_for(far, there, 10.0, {0.8, 0.3});
-  const RobotState a = near.robot();
-  const RobotState b = far.robot();
+  const auto near = make_simulator(here), far = make_simulator(there);
+  drive_for(*near, here, 10.0, {0.8, 0.3});
+  drive_for(*far, there, 10.0, {0.8, 0.3});
+  const RobotState a = near->robot();
+  const RobotState b = far->robot();
   EXPECT_LT((b.position - there.robot.start.position - a.position).norm(), 1e-5);
   EXPECT_NEAR(a.heading, b.heading, 1e-5);
   EXPECT_NEAR(a.left_wheel, b.left_wheel, 1e-4);
@@ -156,7 +156,7 @@ TEST(Motion, IsAsAccurateFarFromTheOrigin) {
 TEST(Motion, StartsWhereTheWorldSays) {
   worlds::World world;
   world.robot.start = {{3.0, -2.0}, 2.5};
-  const RobotState state = Simulator(world).robot();
+  const RobotState state = make_simulator(world)->robot();
   EXPECT_EQ(state.t, 0.0);
   EXPECT_NEAR(state.position.x(), 3.0, 1e-14);
   EXPECT_NEAR(state.position.y(), -2.0, 1e-14);
@@ -169,7 +169,7 @@ TEST(Motion, RefusesWhatMakesNoSense) {
   const auto refused = [](auto change) {
     worlds::World world;
     change(world);
-    EXPECT_THROW(Simulator{world}, std::invalid_argument);
+    EXPECT_THROW(make_simulator(world), std::invalid_argument);
   };
   refused([](worlds::World& w) { w.physics.step_rate = 0; });
   refused([](worlds::World& w) { w.robot.mass = 0.5; });
@@ -179,8 +179,8 @@ TEST(Motion, RefusesWhatMakesNoSense) {
   refused([](worlds::World& w) { w.boxes.push_back({{{1, 1}, 0.0}, {0.0, 1.0}, 1.0}); });
   refused([](worlds::World& w) { w.walls.push_back({{{1, 1}}, 0.1, 1.0, false}); });
   refused([](worlds::World& w) { w.walls.push_back({{{1, 1}, {1, 1}}, 0.1, 1.0, false}); });
-  Simulator simulator(worlds::World{});
-  EXPECT_THROW(simulator.step({std::numeric_limits<double>::quiet_NaN(), 0.0}), std::invalid_argument);
+  const auto simulator = make_simulator({});
+  EXPECT_THROW(simulator->step({std::numeric_limits<double>::quiet_NaN(), 0.0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 namespace sim {
@@ -17,6 +18,16 @@ double sampled(const Segment& way, int steps, const PointDistance& distance_of) 
     nearest = std::min(nearest, distance_of(way.start + (way.end - way.start) * i / steps));
   }
   return nearest;
+}
+
+TEST(PlanarGeometry, HeadingsAreInTheHalfOpenCircle) {
+  EXPECT_EQ(heading_of({-1.0, 0.0}), std::numbers::pi);
+  EXPECT_EQ(heading_of({-1.0, -0.0}), std::numbers::pi);
+  EXPECT_EQ(heading_of({0.0, -2.0}), -std::numbers::pi / 2.0);
+  for (const double heading : {-3.1, -1.0, 0.0, 0.5, 3.1}) {
+    EXPECT_NEAR(heading_of(direction(heading)), heading, 1e-15);
+    EXPECT_NEAR(heading_of(direction(heading + 2.0 * std::numbers::pi)), heading, 1e-14);
+  }
 }
 
 TEST(PlanarGeometry, DistancesMatchDenselySampledWays) {

@@ -49,7 +49,7 @@ TEST(LineOfSight, MatchesCirclesOnThePlane) {
     for (int i = 0; i < 40; ++i) {
       world.landmarks.push_back({origin + Eigen::Vector2d(place(random), place(random)), size(random)});
     }
-    const Simulator simulator(world);
+    const auto simulator = make_simulator(world);
     const Eigen::Vector2d sensor = origin + Eigen::Vector2d(place(random), place(random));
     for (std::size_t i = 0; i < world.landmarks.size(); ++i) {
       const double gap = ray_clearance(world, sensor, i);
@@ -57,7 +57,7 @@ TEST(LineOfSight, MatchesCirclesOnThePlane) {
       if (inside || std::abs(gap) < ray_accuracy) {
         continue;
       }
-      EXPECT_EQ(simulator.line_of_sight(sensor, static_cast<int>(i)), gap > 0.0)
+      EXPECT_EQ(simulator->line_of_sight(sensor, static_cast<int>(i)), gap > 0.0)
           << trial << ' ' << i << ' ' << gap;
       (gap > 0.0 ? free : hidden) += 1;
     }
@@ -86,13 +86,13 @@ TEST(LineOfSight, MatchesAWallOnThePlane) {
       world.landmarks.push_back(
           {to_world(4.0, sides.back()), 0.001});  // too small and too far apart to hide each other
     }
-    const Simulator simulator(world);
+    const auto simulator = make_simulator(world);
     for (int i = 0; i < 20; ++i) {
       const double y = std::abs(sides[static_cast<std::size_t>(i)]) * 1.9 / 4.0;
       if (std::abs(y - 1.0) < ray_accuracy) {
         continue;
       }
-      EXPECT_EQ(simulator.line_of_sight(to_world(0, 0), i), y > 1.0) << trial << ' ' << y;
+      EXPECT_EQ(simulator->line_of_sight(to_world(0, 0), i), y > 1.0) << trial << ' ' << y;
       (y > 1.0 ? free : hidden) += 1;
     }
   }
@@ -112,9 +112,9 @@ TEST(LineOfSight, NothingIsSeenThroughTheJointsOfAWall) {
   for (const Eigen::Vector2d& corner : corners) {
     world.landmarks.push_back({2.5 * corner, 0.01});
   }
-  const Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   for (int i = 0; i < static_cast<int>(world.landmarks.size()); ++i) {
-    EXPECT_FALSE(simulator.line_of_sight({0, 0}, i)) << i;
+    EXPECT_FALSE(simulator->line_of_sight({0, 0}, i)) << i;
   }
 }
 
@@ -122,9 +122,9 @@ TEST(LineOfSight, BoxesHideAtAnyHeight) {
   worlds::World world;
   world.landmarks = {{{4, 0}, 0.1}, {{4, 3}, 0.1}};
   world.boxes.push_back({{{2, 0}, 0.3}, {0.4, 0.4}, 0.01});
-  const Simulator simulator(world);
-  EXPECT_FALSE(simulator.line_of_sight({0, 0}, 0));
-  EXPECT_TRUE(simulator.line_of_sight({0, 0}, 1));
+  const auto simulator = make_simulator(world);
+  EXPECT_FALSE(simulator->line_of_sight({0, 0}, 0));
+  EXPECT_TRUE(simulator->line_of_sight({0, 0}, 1));
 }
 
 TEST(LineOfSight, TheNearFaceDecidesForALandmarkThatIsPartlyCovered) {
@@ -132,20 +132,20 @@ TEST(LineOfSight, TheNearFaceDecidesForALandmarkThatIsPartlyCovered) {
   world.landmarks = {{{4, 0}, 0.3}, {{4.2, 0.25}, 0.2}, {{3.75, 0.0}, 0.1}};
   // The first sticks out of the second's side: seen from -x its face is free but for the third, which covers
   // it.
-  EXPECT_FALSE(Simulator(world).line_of_sight({0, 0}, 0));
+  EXPECT_FALSE(make_simulator(world)->line_of_sight({0, 0}, 0));
   world.landmarks.pop_back();
-  EXPECT_TRUE(Simulator(world).line_of_sight({0, 0}, 0));
-  EXPECT_TRUE(Simulator(world).line_of_sight({4.2, 3.0}, 1));
-  EXPECT_TRUE(Simulator(world).line_of_sight({4.1, 0.0}, 0));  // from within the landmark itself
+  EXPECT_TRUE(make_simulator(world)->line_of_sight({0, 0}, 0));
+  EXPECT_TRUE(make_simulator(world)->line_of_sight({4.2, 3.0}, 1));
+  EXPECT_TRUE(make_simulator(world)->line_of_sight({4.1, 0.0}, 0));  // from within the landmark itself
 }
 
 TEST(LineOfSight, RefusesALandmarkThatIsNotThere) {
   worlds::World world;
   world.landmarks = {{{4, 0}, 0.3}};
   world.boxes.push_back({{{2, 5}, 0.0}, {1, 1}, 1.0});
-  const Simulator simulator(world);
-  EXPECT_THROW(static_cast<void>(simulator.line_of_sight({0, 0}, 1)), std::out_of_range);
-  EXPECT_THROW(static_cast<void>(simulator.line_of_sight({0, 0}, -1)), std::out_of_range);
+  const auto simulator = make_simulator(world);
+  EXPECT_THROW(static_cast<void>(simulator->line_of_sight({0, 0}, 1)), std::out_of_range);
+  EXPECT_THROW(static_cast<void>(simulator->line_of_sight({0, 0}, -1)), std::out_of_range);
 }
 
 TEST(LandmarksWithin, AreAllWhoseCentresAreInTheDisk) {
@@ -155,8 +155,10 @@ TEST(LandmarksWithin, AreAllWhoseCentresAreInTheDisk) {
   for (int i = 0; i < 1000; ++i) {
     world.landmarks.push_back({{place(random), place(random)}, size(random)});
   }
-  world.boxes.push_back({{{0, 0}, 0.0}, {1, 1}, 1.0});
-  const Simulator simulator(world);
+  worlds::World with_box = world;
+  with_box.boxes.push_back({{{0, 0}, 0.0}, {1, 1}, 1.0});
+  world.physics.engine = worlds::Engine::kinematic;
+  const auto in_bullet = make_simulator(with_box), kinematic = make_simulator(world);
   std::vector<int> found = {99};
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::Vector2d p(place(random), place(random));
@@ -166,8 +168,10 @@ TEST(LandmarksWithin, AreAllWhoseCentresAreInTheDisk) {
         expected.push_back(i);
       }
     }
-    simulator.landmarks_within(p, 8.0, found);
-    EXPECT_EQ(found, expected);
+    for (const auto* simulator : {in_bullet.get(), kinematic.get()}) {
+      simulator->landmarks_within(p, 8.0, found);
+      EXPECT_EQ(found, expected);
+    }
   }
 }
 
@@ -176,22 +180,25 @@ TEST(PathIsClear, WhereADiskFitsBetweenSolids) {
   world.landmarks = {{{5, 1}, 0.2}, {{5, -1}, 0.2}};
   world.boxes.push_back(
       {{{10, 2}, pi / 4}, {std::sqrt(2.0), std::sqrt(2.0)}, 1.0});  // its corner is at (10, 1)
-  const Simulator simulator(world);
-  EXPECT_TRUE(simulator.path_is_clear({0, 0}, {8, 0}, 0.799));
-  EXPECT_FALSE(simulator.path_is_clear({0, 0}, {8, 0}, 0.801));
-  EXPECT_TRUE(simulator.path_is_clear({8, 0}, {200, 0}, 0.999));
-  EXPECT_FALSE(simulator.path_is_clear({8, 0}, {200, 0}, 1.001));
-  EXPECT_FALSE(simulator.path_is_clear({0, 2}, {20, 2}, 0.0));  // straight through the box
+  const auto simulator = make_simulator(world);
+  EXPECT_TRUE(simulator->path_is_clear({0, 0}, {8, 0}, 0.799));
+  EXPECT_FALSE(simulator->path_is_clear({0, 0}, {8, 0}, 0.801));
+  EXPECT_TRUE(simulator->path_is_clear({8, 0}, {200, 0}, 0.999));
+  EXPECT_FALSE(simulator->path_is_clear({8, 0}, {200, 0}, 1.001));
+  EXPECT_FALSE(simulator->path_is_clear({0, 2}, {20, 2}, 0.0));  // straight through the box
 }
 
 TEST(PathIsClear, NotFromAStartThatTouches) {
   worlds::World world;
   world.landmarks = {{{0, 0}, 0.5}};
-  const Simulator simulator(world);
-  EXPECT_FALSE(simulator.path_is_clear({0.7, 0}, {5, 0}, 0.25));
-  EXPECT_FALSE(simulator.path_is_clear({0.1, 0}, {5, 0}, 0.0));
-  EXPECT_FALSE(simulator.path_is_clear({0.75, 0}, {0.75, 0}, 0.25));
-  EXPECT_TRUE(simulator.path_is_clear({0.76, 0}, {0.76, 0}, 0.25));
+  for (const worlds::Engine engine : {worlds::Engine::bullet, worlds::Engine::kinematic}) {
+    world.physics.engine = engine;
+    const auto simulator = make_simulator(world);
+    EXPECT_FALSE(simulator->path_is_clear({0.7, 0}, {5, 0}, 0.25));
+    EXPECT_FALSE(simulator->path_is_clear({0.1, 0}, {5, 0}, 0.0));
+    EXPECT_FALSE(simulator->path_is_clear({0.75, 0}, {0.75, 0}, 0.25));
+    EXPECT_TRUE(simulator->path_is_clear({0.76, 0}, {0.76, 0}, 0.25));
+  }
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ double slip(const std::vector<worlds::FrictionPatch>& patches) {
   worlds::World world;
   world.physics.patches = patches;
   world.robot.motor_torque = 5.0;
-  Simulator simulator(world);
-  drive_for(simulator, world, 3.0, {1.0, 0.0});
-  return wheel_travel(simulator.robot(), world.robot) - simulator.robot().position.x();
+  const auto simulator = make_simulator(world);
+  drive_for(*simulator, world, 3.0, {1.0, 0.0});
+  return wheel_travel(simulator->robot(), world.robot) - simulator->robot().position.x();
 }
 
 // Wheels that carry at most the whole weight cannot push harder than friction * g = 0.98 m/s^2, and they
@@ -37,10 +37,10 @@ TEST(Slip, EachWheelHasItsOwnGround) {
   worlds::World world;
   world.physics.patches = {{{-10, 0}, {10, 10}, 0.02}};
   world.robot.motor_torque = 5.0;
-  Simulator simulator(world);
-  drive_for(simulator, world, 1.0, {1.0, 0.0});
-  EXPECT_GT(simulator.robot().heading, 0.05);
-  EXPECT_GT(simulator.robot().heading - wheel_turn(simulator.robot(), world.robot), 0.05);
+  const auto simulator = make_simulator(world);
+  drive_for(*simulator, world, 1.0, {1.0, 0.0});
+  EXPECT_GT(simulator->robot().heading, 0.05);
+  EXPECT_GT(simulator->robot().heading - wheel_turn(simulator->robot(), world.robot), 0.05);
 }
 
 // Locked wheels on ice: the robot slides on, as far as friction lets it.
@@ -48,13 +48,13 @@ TEST(Slip, ARobotThatBrakesOnIceSlidesOn) {
   worlds::World world;
   world.robot.max_acceleration = 4.0;
   world.physics.patches = {{{2, -10}, {30, 10}, 0.05}};
-  Simulator simulator(world);
-  while (simulator.robot().position.x() < 2.5) {
-    simulator.step({1.0, 0.0});
+  const auto simulator = make_simulator(world);
+  while (simulator->robot().position.x() < 2.5) {
+    simulator->step({1.0, 0.0});
   }
-  const RobotState before = simulator.robot();
-  drive_for(simulator, world, 6.0, {0.0, 0.0});
-  const RobotState after = simulator.robot();
+  const RobotState before = simulator->robot();
+  drive_for(*simulator, world, 6.0, {0.0, 0.0});
+  const RobotState after = simulator->robot();
   EXPECT_LT(std::abs(after.v), 1e-3);
   const double slid = after.position.x() - before.position.x();
   EXPECT_GT(slid,

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -30,17 +29,17 @@ worlds::World forest(int count) {
 
 /// A drive of 60 s with five scans a second.
 SimulatorCounts counts_of_a_drive(const worlds::World& world) {
-  Simulator simulator(world);
+  const auto simulator = make_simulator(world);
   std::vector<int> candidates;
   for (int i = 0; i < 300; ++i) {
-    drive_for(simulator, world, 0.2, {0.8, 0.3 * std::sin(0.02 * i)});
-    const Eigen::Vector2d sensor = simulator.robot().position;
-    simulator.landmarks_within(sensor, 8.0, candidates);
+    drive_for(*simulator, world, 0.2, {0.8, 0.3 * std::sin(0.02 * i)});
+    const Eigen::Vector2d sensor = simulator->robot().position;
+    simulator->landmarks_within(sensor, 8.0, candidates);
     for (const int landmark : candidates) {
-      static_cast<void>(simulator.line_of_sight(sensor, landmark));
+      static_cast<void>(simulator->line_of_sight(sensor, landmark));
     }
   }
-  return simulator.counts();
+  return simulator->counts();
 }
 
 TEST(Work, OfStepsAndScansDoesNotGrowWithTheWorld) {
@@ -60,13 +59,6 @@ TEST(Work, OfStepsAndScansDoesNotGrowWithTheWorld) {
   EXPECT_GT(large.rays, 300 * 5);
 }
 
-std::array<std::uint64_t, 7> bits(const RobotState& s) {
-  return {std::bit_cast<std::uint64_t>(s.position.x()), std::bit_cast<std::uint64_t>(s.position.y()),
-          std::bit_cast<std::uint64_t>(s.heading),      std::bit_cast<std::uint64_t>(s.left_wheel),
-          std::bit_cast<std::uint64_t>(s.right_wheel),  std::bit_cast<std::uint64_t>(s.v),
-          std::bit_cast<std::uint64_t>(s.omega)};
-}
-
 // Side by side in one process, and a third that is built when memory has been used and freed: through
 // collisions, slip and streaming.
 TEST(Determinism, TheSameWorldGivesTheSameBits) {
@@ -77,35 +69,35 @@ TEST(Determinism, TheSameWorldGivesTheSameBits) {
   constexpr int steps = 10000;
   std::vector<std::array<std::uint64_t, 7>> trace;
   {
-    Simulator a(world), b(world);
+    const auto a = make_simulator(world), b = make_simulator(world);
     for (int i = 0; i < steps; ++i) {
-      a.step(command(i));
-      b.step(command(i));
-      trace.push_back(bits(a.robot()));
-      ASSERT_EQ(bits(b.robot()), trace.back()) << i;
+      a->step(command(i));
+      b->step(command(i));
+      trace.push_back(bits(a->robot()));
+      ASSERT_EQ(bits(b->robot()), trace.back()) << i;
     }
   }
-  Simulator c(world);
+  const auto c = make_simulator(world);
   for (int i = 0; i < steps; ++i) {
-    c.step(command(i));
-    ASSERT_EQ(bits(c.robot()), trace[static_cast<std::size_t>(i)]) << i;
+    c->step(command(i));
+    ASSERT_EQ(bits(c->robot()), trace[static_cast<std::size_t>(i)]) << i;
   }
 }
 
 // Asking where things are changes nothing.
 TEST(Determinism, QueriesDoNotDisturbTheMotion) {
   const worlds::World world = forest(400);
-  Simulator asked(world), left_alone(world);
+  const auto asked = make_simulator(world), left_alone = make_simulator(world);
   std::vector<int> found;
   for (int i = 0; i < 3000; ++i) {
-    asked.step({1.0, 0.5});
-    left_alone.step({1.0, 0.5});
-    asked.landmarks_within(asked.robot().position, 8.0, found);
+    asked->step({1.0, 0.5});
+    left_alone->step({1.0, 0.5});
+    asked->landmarks_within(asked->robot().position, 8.0, found);
     for (const int landmark : found) {
-      static_cast<void>(asked.line_of_sight(asked.robot().position, landmark));
+      static_cast<void>(asked->line_of_sight(asked->robot().position, landmark));
     }
   }
-  EXPECT_EQ(bits(asked.robot()), bits(left_alone.robot()));
+  EXPECT_EQ(bits(asked->robot()), bits(left_alone->robot()));
 }
 
 }  // namespace

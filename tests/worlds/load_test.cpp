@@ -78,6 +78,33 @@ TEST(LoadWorld, RefusesCollisionsOfWhatIsPlacedByHand) {
             std::string::npos);
 }
 
+TEST(LoadWorld, ReadsTheEngine) {
+  const Folder folder;
+  EXPECT_EQ(load_text(folder, "{}").world.value().physics.engine, Engine::bullet);
+  const LoadResult result = load_text(folder, "physics: {engine: kinematic}\n");
+  ASSERT_TRUE(result.world) << text_of(result.problems);
+  EXPECT_EQ(result.world->physics.engine, Engine::kinematic);
+  EXPECT_NE(result.resolved.find("engine: kinematic"), std::string::npos);
+  EXPECT_NE(problems_of("physics: {engine: kinematics}\n").find("did you mean 'kinematic'?"),
+            std::string::npos);
+}
+
+TEST(LoadWorld, RefusesForTheKinematicEngineWhatItWouldIgnore) {
+  const std::string text =
+      "physics:\n"
+      "  patches: [{min_m: [5, 5], max_m: [6, 6], friction: 0.1}]\n"
+      "obstacles:\n"
+      "  boxes: [{x_m: 5, y_m: 0, size_m: [1, 1]}]\n"
+      "  walls: [{points_m: [[-5, -1], [-5, 1]]}]\n";
+  EXPECT_EQ(problems_of(text), "");
+  const std::string or_bullet = ": take them out, or set physics.engine to bullet\n";
+  EXPECT_EQ(problems_of(text, {"physics.engine=kinematic"}),
+            "2:12: the kinematic engine knows no patches" + or_bullet +
+                "4:10: the kinematic engine knows no boxes" + or_bullet +
+                "5:10: the kinematic engine knows no walls" + or_bullet);
+  EXPECT_EQ(problems_of(text, {"physics.engine=kinematic", "physics.patches=[]", "obstacles={}"}), "");
+}
+
 TEST(LoadWorld, RefusesPathsThatCannotBeDriven) {
   const std::string walls = "obstacles: {walls: [{points_m: [[5, -1], [5, 1]]}]}\n";
   EXPECT_NE(problems_of("drive: {mode: waypoints, waypoints_m: [[0, 0], [30, 0]]}\n").find("off the ground"),

@@ -208,6 +208,7 @@ TEST(JsonSchema, AgreesWithTheLoaderOnSingleMistakes) {
       "ground: {size_m: [0, 10]}",
       "robot: {wheel_radius_m: 0}",
       "physics: {friction: -0.1}",
+      "physics: {engine: magic}",
       "physics: {step_rate_hz: 240.5}",
       "sensors: {landmark_sensor: {range_sd_m: 0}}",
       "sensors: {landmark_sensor: {bearing_sd_deg: -1}}",

@@ -1,0 +1,42 @@
+// The world without bodies: the robot does what its limits make of the command, to the letter, and landmarks
+// are points that hide nothing and stop nothing. For runs by the thousand.
+#pragma once
+
+#include "sim/simulator.hpp"
+#include "worlds/point_grid.hpp"
+
+namespace sim {
+
+class KinematicSimulator final : public Simulator {
+ public:
+  /// See make_simulator. The step rate is positive.
+  explicit KinematicSimulator(const worlds::World& world);
+
+  /// The wheels roll without slip at the speeds that the limits of speed and acceleration allow: an exact
+  /// circular arc.
+  void step(const Command& command) override;
+
+  RobotState robot() const override;
+  void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
+
+  /// Always.
+  bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const override;
+
+  /// Clear of the landmarks' disks: nothing would stop the robot, but who looks for a way goes round them.
+  bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
+                     double radius) const override;
+
+  SimulatorCounts counts() const override;
+
+ private:
+  worlds::Robot robot_;
+  int step_rate_;  // [Hz]
+  worlds::PointGrid landmarks_;
+  std::vector<double> radii_;  // [m] of the landmarks
+  double largest_radius_;      // [m]
+  RobotState state_;           // but for its time; the heading is unwrapped
+  std::int64_t steps_ = 0;     // [-]
+  mutable std::int64_t candidates_ = 0;
+};
+
+}  // namespace sim
