@@ -10,10 +10,19 @@
 namespace harness {
 namespace {
 
-TEST(LiveLoop, AllocatesNothingFromTheThirdRoundOn) {
+class LiveLoopIn : public testing::TestWithParam<worlds::Engine> {};
+
+INSTANTIATE_TEST_SUITE_P(Engines, LiveLoopIn,
+                         testing::Values(worlds::Engine::bullet, worlds::Engine::kinematic),
+                         [](const auto& engine) {
+                           return engine.param == worlds::Engine::bullet ? "Bullet" : "Kinematic";
+                         });
+
+TEST_P(LiveLoopIn, AllocatesNothingFromTheThirdRoundOn) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
   const test::TemporaryFolder folder;
   worlds::World world = test::small_world();  // a round takes about 40 s
+  world.physics.engine = GetParam();
   world.duration = 240.0;
   world.scoring.interval = 1e6;  // scoring is off the live path
   world.estimators = {test::choice("seif_report")};

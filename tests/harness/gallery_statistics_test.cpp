@@ -57,6 +57,16 @@ TEST(Gallery, CourtyardHoldsTheEkfInItsBandAndTheReportsSeifFarOutside) {
   EXPECT_GT(seif_report.landmark, 30.0);
 }
 
+// 60 degrees of freedom for the pose, as above.
+TEST(Gallery, Report2002HoldsTheEkfInItsBandInTheKinematicEngine) {
+  const MeanNees ekf =
+      final_nees("report2002", {"physics.engine=kinematic", "estimators={ekf: {}}"}, 20).at(0);
+  EXPECT_GT(ekf.pose, 40.48 / 60);
+  EXPECT_LT(ekf.pose, 83.30 / 60);
+  EXPECT_GT(ekf.landmark, 24.43 / 40);
+  EXPECT_LT(ekf.landmark, 59.34 / 40);
+}
+
 // A sensor that sees nothing leaves dead reckoning with its covariance.
 const std::vector<std::string> blind{"sensors.landmark_sensor.max_range_m=0.05", "estimators={ekf: {}}",
                                      "sensors.encoders.calibrated=true"};

@@ -81,6 +81,28 @@ TEST(Run, AReplayGivesTheSameBytesButForTimes) {
   EXPECT_EQ(compared, 16);  // eight of the log and its trajectories, four of each estimator
 }
 
+// Scored like any other, the same each time, and a replay gives what the live run gave.
+TEST(Run, InTheKinematicEngineIsARunLikeAnyOther) {
+  const TemporaryFolder folder;
+  worlds::World world = small_world();
+  const std::string in_bullet = run_live(world, folder / "bullet").summary.trajectory_hash;
+  world.physics.engine = worlds::Engine::kinematic;
+  const RunResult result = run_live(world, folder / "live");
+  EXPECT_EQ(exit_code(result), 0) << result.error;
+  EXPECT_EQ(result.summary.updates, 100);
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    EXPECT_EQ(score.landmarks_mapped, 12);
+    EXPECT_LT(score.landmarks.rmse.value(), 0.5);
+    EXPECT_TRUE(score.nees_pose);
+  }
+  const std::string& hash = result.summary.trajectory_hash;
+  EXPECT_NE(hash, in_bullet);
+  EXPECT_EQ(run_live(world, folder / "again").summary.trajectory_hash, hash);
+  EXPECT_EQ(replay(world, folder / "live", folder / "replay").summary.trajectory_hash, hash);
+  for (const char* file : {"ekf.tum", "ekf_steps.csv", "seif_report_map.csv"})
+    EXPECT_EQ(read_file(folder / "replay" / file), read_file(folder / "live" / file)) << file;
+}
+
 TEST(Run, TheSummaryHasEveryKey) {
   const TemporaryFolder folder;
   const RunResult result = run_live(small_world(), folder / "run");
@@ -259,6 +281,33 @@ TEST(SimulatedStream, EventsComeAtTheirRatesWithOdometryFirst) {
   ASSERT_EQ(scans.size(), 10U);
   EXPECT_EQ(odometry[2], 36.0 / 240.0);
   EXPECT_EQ(scans.back(), 2.0);
+}
+
+// Encoders without error, read at every step, reckon the very pose: the engine's arcs are those of the
+// encoders' model, written down apart from each other.
+TEST(SimulatedStream, KinematicMotionIsWhatPerfectEncodersReckon) {
+  worlds::World world = small_world();
+  world.physics.engine = worlds::Engine::kinematic;
+  world.encoders.rate = world.physics.step_rate;
+  world.encoders.ticks_per_revolution = 0;
+  world.encoders.distance_sd = 0.0;
+  SimulatedStream stream(world, {});
+  seif::Pose2 reckoned{world.robot.start.position.x(), world.robot.start.position.y(),
+                       world.robot.start.heading};
+  double driven = 0.0;  // [m]
+  Event event;
+  while (stream.next(event)) {
+    const auto* reading = std::get_if<OdometryEvent>(&event);
+    if (reading == nullptr) continue;
+    const seif::Pose2& step = reading->odometry.T_previous_current;
+    reckoned = reckoned * step;
+    driven += std::hypot(step.x, step.y);
+    const seif::Pose2& truth = reading->truth->T_world_robot;
+    ASSERT_NEAR(reckoned.x, truth.x, 1e-11);
+    ASSERT_NEAR(reckoned.y, truth.y, 1e-11);
+    ASSERT_NEAR(seif::wrap_angle(reckoned.theta - truth.theta), 0.0, 1e-11);
+  }
+  EXPECT_GT(driven, 8.0);
 }
 
 TEST(SimulatedStream, FalseDetectionsHaveIdsThatNoLandmarkHas) {
