@@ -177,10 +177,10 @@ TEST(Kinematic, LandmarksHideNothingAndStopNothing) {
 // Long and short ways, thick and thin landmarks: the other engine's answer.
 TEST(Kinematic, APathIsClearWhereBulletSaysSo) {
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> place(-30.0, 30.0), size(0.02, 1.0);
+  std::uniform_real_distribution<double> place(-30.0, 30.0), size(0.02, 4.0);
   worlds::World world = kinematic_world();
   world.landmark_sensor.max_range = 3.0;
-  for (int i = 0; i < 100; ++i) world.landmarks.push_back({{place(random), place(random)}, size(random)});
+  for (int i = 0; i < 30; ++i) world.landmarks.push_back({{place(random), place(random)}, size(random)});
   const auto kinematic = make_simulator(world);
   world.physics.engine = worlds::Engine::bullet;
   const auto in_bullet = make_simulator(world);
