@@ -1,6 +1,7 @@
 #include "seif/information_state.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <stdexcept>
@@ -18,7 +19,27 @@ InformationState::InformationState(const PoseEstimate& start) {
   set_pose(start.mean);
 }
 
-void InformationState::set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }
+void InformationState::set_pose(const Pose2& pose) {
+  mu_.head<3>() << pose.x, pose.y, pose.theta;
+  predicted_pose_ = pose;
+}
+
+Eigen::Vector2d InformationState::linearisation_point(int slot) const {
+  return uses_first_estimates() ? Eigen::Vector2d(landmarks_[index(slot)].first_estimate) : mean(slot);
+}
+
+void InformationState::update_first_estimates() {
+  for (int position = 0; position < active_count(); ++position) {
+    Landmark& landmark = landmarks_[index(active(position))];
+    if (landmark.sightings <= settled_after_) landmark.first_estimate = mu_.segment<2>(row_of(position));
+  }
+}
+
+void InformationState::mark_seen(int slot) {
+  Landmark& landmark = landmarks_[index(slot)];
+  if (landmark.sightings == 0 || landmark.last_seen != scan_) ++landmark.sightings;
+  landmark.last_seen = scan_;
+}
 
 Eigen::Vector2d InformationState::mean(int slot) const {
   const Landmark& landmark = landmarks_[index(slot)];
@@ -42,21 +63,8 @@ Eigen::Matrix2d InformationState::information(int slot) const {
 int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean) {
   const int slot = landmark_count();
   index_.insert(landmark, slot);
-  landmarks_.push_back({.id = landmark, .mu = mean});
+  landmarks_.push_back({.id = landmark, .mu = mean, .first_estimate = mean});
   return slot;
-}
-
-/// Calls visit(link, end, other) for each link of a landmark: end is which end of the link it is, other the
-/// slot at the far end.
-template <class Visit>
-void InformationState::for_each_link(int slot, Visit&& visit) const {
-  for (int link = landmarks_[index(slot)].first_link; link != none;) {
-    const Link& l = links_[index(link)];
-    const int end = l.end[0] == slot ? 0 : 1;
-    const int next = l.next[end];
-    visit(link, end, l.end[1 - end]);
-    link = next;
-  }
 }
 
 int InformationState::add_link(int slot_i, int slot_j, const Block& Omega_ij) {
@@ -89,7 +97,8 @@ int InformationState::activate(int slot) {
 }
 
 void InformationState::load_into_window(int slot, int position) {
-  const Landmark& landmark = landmarks_[index(slot)];
+  Landmark& landmark = landmarks_[index(slot)];
+  squared_residual_ -= std::exchange(landmark.squared_residual, 0.0);
   const int row = row_of(position);
   Omega_.middleRows<2>(row).leftCols(row + 2).setZero();
   Omega_.middleCols<2>(row).topRows(row + 2).setZero();
@@ -129,6 +138,7 @@ void InformationState::store_from_window(int position) {
   landmark.mu = mu_.segment<2>(row);
   landmark.r = r_.segment<2>(row);
   landmark.Omega_ii = Omega_.block<2, 2>(row, row);
+  note_residual(landmark);
   for (int other = 0; other < active_count(); ++other) {
     if (other == position) continue;
     const Block Omega_so = Omega_.block<2, 2>(row, row_of(other));
@@ -188,6 +198,7 @@ void InformationState::move_landmark(int slot, const Eigen::Vector2d& d) {
   } else {
     landmark.mu += d;
     landmark.r -= landmark.Omega_ii * d;
+    note_residual(landmark);
     touch(1);
   }
   for_each_link(slot, [&](int link, int end, int other) {
@@ -198,11 +209,52 @@ void InformationState::move_landmark(int slot, const Eigen::Vector2d& d) {
         end == 0 ? Eigen::Vector2d(Omega_ij.transpose() * d) : Eigen::Vector2d(Omega_ij * d);
     if (neighbour.position == none) {
       neighbour.r -= dr;
+      note_residual(neighbour);
     } else {
       r_.segment<2>(row_of(neighbour.position)) -= dr;
     }
     touch(1);
   });
+}
+
+void InformationState::move_window(const Eigen::Ref<const Eigen::VectorXd>& d) {
+  mu_.head(window_size()) += d;
+  mu_(2) = wrap_angle(mu_(2));
+  r().noalias() -= Omega() * d;
+  touch(window_blocks());
+  for (int position = 0; position < active_count(); ++position) {
+    const Eigen::Vector2d d_i = d.segment<2>(row_of(position));
+    for_each_link(active(position), [&](int link, int end, int other) {
+      Landmark& neighbour = landmarks_[index(other)];
+      if (neighbour.position != none) return;  // its block is the window's
+      const Block& Omega_ij = links_[index(link)].Omega_ij;
+      if (end == 0) {
+        neighbour.r -= Omega_ij.transpose() * d_i;
+      } else {
+        neighbour.r -= Omega_ij * d_i;
+      }
+      note_residual(neighbour);
+      touch(1);
+    });
+  }
+}
+
+/// Of a passive landmark whose r has changed.
+void InformationState::note_residual(Landmark& landmark) {
+  if (!tracks_residual_) return;
+  const double now = landmark.r.dot(landmark.Omega_ii.inverse() * landmark.r);
+  squared_residual_ += now - std::exchange(landmark.squared_residual, now);
+}
+
+double InformationState::squared_residual() const {
+  const Eigen::Vector3d r_x = r_.head<3>();
+  double sum = squared_residual_ + r_x.dot(Omega_.topLeftCorner<3, 3>().llt().solve(r_x));
+  for (int position = 0; position < active_count(); ++position) {
+    const int row = row_of(position);
+    const Eigen::Vector2d r_i = r_.segment<2>(row);
+    sum += r_i.dot(Omega_.block<2, 2>(row, row).inverse() * r_i);
+  }
+  return sum;
 }
 
 std::int64_t InformationState::link_count() const {

@@ -46,7 +46,25 @@ class InformationState {
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
+  /// The mean of the pose as a motion predicts it; the caller keeps r.
   void set_pose(const Pose2& pose);
+
+  // Where the steps linearise: at the mean, or at first estimates.
+
+  /// From now on Jacobians are taken at first estimates: the pose as it was predicted, and a landmark as it
+  /// was believed to be after it had been seen in `sightings` scans (at least one). What an observation says
+  /// then has the same null space from scan to scan, and nothing is learned of what nothing observes: Huang,
+  /// Mourikis, Roumeliotis, IJRR 2010. Their first estimate is that of the first sighting; a few more make
+  /// the Jacobians better. Before the first landmark joins.
+  void use_first_estimates(int sightings) { settled_after_ = sightings; }
+  bool uses_first_estimates() const { return settled_after_ > 0; }
+
+  /// The pose, and p_world_landmark, at which to take Jacobians.
+  Pose2 linearisation_pose() const { return uses_first_estimates() ? predicted_pose_ : pose(); }
+  Eigen::Vector2d linearisation_point(int slot) const;
+
+  /// Takes the present means for the first estimates of active landmarks that are not settled yet.
+  void update_first_estimates();
 
   /// The slot of the active landmark at a position of the window.
   int active(int position) const { return active_[static_cast<std::size_t>(position)]; }
@@ -64,7 +82,7 @@ class InformationState {
   /// How many scans ago a landmark was last seen; 0: in the latest one.
   int scans_since_seen(int slot) const { return scan_ - landmarks_[index(slot)].last_seen; }
   void begin_scan() { ++scan_; }
-  void mark_seen(int slot) { landmarks_[index(slot)].last_seen = scan_; }
+  void mark_seen(int slot);
 
   /// Adds a passive landmark of which nothing is known yet: no information, no links. Returns its slot.
   int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean);
@@ -76,11 +94,31 @@ class InformationState {
   /// landmark moves to its place.
   void deactivate(int position);
 
+  /// Calls visit(other slot, Omega_so) for every link of a landmark but those within the window.
+  template <class Visit>
+  void for_each_neighbour(int slot, Visit&& visit) const {
+    const bool is_active = position(slot) != none;
+    for_each_link(slot, [&](int link, int end, int other) {
+      if (is_active && position(other) != none) return;
+      const Block& stored = links_[index(link)].Omega_ij;
+      visit(other, end == 0 ? stored : Block(stored.transpose()));
+    });
+  }
+
   /// Moves the mean of the robot by d (3 x 1) and keeps r exact.
   void move_robot(const Eigen::Vector3d& d);
 
   /// Moves the mean of one landmark by d (2 x 1) and keeps r exact at it and at all that is linked to it.
   void move_landmark(int slot, const Eigen::Vector2d& d);
+
+  /// Moves the mean of the whole window by d (w x 1) and keeps r exact, in it and at the passive landmarks
+  /// linked to it.
+  void move_window(const Eigen::Ref<const Eigen::VectorXd>& d);
+
+  /// From now on squared_residual() is kept up to date wherever r changes. Before the first landmark joins.
+  void track_residual() { tracks_residual_ = true; }
+  /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks, in constant time. [-]
+  double squared_residual() const;
 
   /// The report's count: links of the robot + pairs of landmarks with a link.
   std::int64_t link_count() const;
@@ -112,9 +150,12 @@ class InformationState {
     int position = none;    // in the window
     int first_link = none;  // head of its list of links
     int last_seen = 0;      // number of the scan
+    int sightings = 0;      // [-] scans that saw it
     Point mu = Point::Zero();
+    Point first_estimate = Point::Zero();
     Point r = Point::Zero();
     Block Omega_ii = Block::Zero();
+    double squared_residual = 0.0;  // r' Omega_ii^-1 r if tracked
   };
 
   /// A block Omega_ij, stored once and threaded through the lists of both its ends. While both are active the
@@ -126,14 +167,25 @@ class InformationState {
   };
 
   static std::size_t index(int slot) { return static_cast<std::size_t>(slot); }
+  /// Calls visit(link, end, other) for each link of a landmark: end is which end of the link it is, other the
+  /// slot at the far end.
   template <class Visit>
-  void for_each_link(int slot, Visit&& visit) const;
+  void for_each_link(int slot, Visit&& visit) const {
+    for (int link = landmarks_[index(slot)].first_link; link != none;) {
+      const Link& l = links_[index(link)];
+      const int end = l.end[0] == slot ? 0 : 1;
+      const int next = l.next[end];
+      visit(link, end, l.end[1 - end]);
+      link = next;
+    }
+  }
   int add_link(int slot_i, int slot_j, const Block& Omega_ij);
   void set_link(int link, int slot_i, const Block& Omega_ij);
   void load_into_window(int slot, int position);
   void store_from_window(int position);
   void move_within_window(int from, int to);
   void reserve_window(int active_landmarks);
+  void note_residual(Landmark& landmark);
 
   std::vector<int> active_;  // slots, by position
   Eigen::MatrixXd Omega_;    // window, with room to grow
@@ -146,7 +198,11 @@ class InformationState {
   ChunkedArray<Landmark> landmarks_;
   ChunkedArray<Link> links_;
   LandmarkIndex index_;
+  int settled_after_ = 0;  // [-] sightings; 0: Jacobians at the mean
+  Pose2 predicted_pose_;
   int scan_ = 0;
+  bool tracks_residual_ = false;
+  double squared_residual_ = 0.0;  // of the passive landmarks
   std::int64_t blocks_touched_ = 0;
 };
 

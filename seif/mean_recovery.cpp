@@ -20,6 +20,11 @@ bool relax_robot(InformationState& state) {
   return true;
 }
 
+/// M = L L', L in its lower triangle. False if M is not positive definite.
+bool factorise_in_place(Eigen::Ref<Eigen::MatrixXd> M) {
+  return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(M).info() == Eigen::Success;
+}
+
 }  // namespace
 
 bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random) {
@@ -33,6 +38,16 @@ bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19
     }
   }
   return relax_robot(state);
+}
+
+bool solve_for_window(InformationState& state, Eigen::Ref<Eigen::VectorXd> d) {
+  auto L = state.work();
+  L = state.Omega();
+  if (!factorise_in_place(L)) return false;
+  L.triangularView<Eigen::Lower>().solveInPlace(d);
+  L.triangularView<Eigen::Lower>().transpose().solveInPlace(d);
+  state.touch(state.window_blocks());
+  return true;
 }
 
 bool solve_mean(InformationState& state) {

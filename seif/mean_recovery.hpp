@@ -1,6 +1,7 @@
 // Recovers the mean from the information form: section 3.2 of the report.
 #pragma once
 
+#include <Eigen/Core>
 #include <random>
 
 #include "seif/information_state.hpp"
@@ -13,6 +14,10 @@ namespace seif {
 /// afterwards. False if a diagonal block turns out not to be positive definite; the mean is then that of the
 /// steps before.
 [[nodiscard]] bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random);
+
+/// d = Omega_ww^-1 d over the window (w x 1): the step of robot and active landmarks that a residual d of
+/// theirs asks for, all other landmarks held. False, with d unchanged, if Omega_ww is not positive definite.
+[[nodiscard]] bool solve_for_window(InformationState& state, Eigen::Ref<Eigen::VectorXd> d);
 
 /// The exact mean, eq. (37): moves it by Omega^-1 r, by sparse Cholesky. Not in constant time.
 /// False, with the mean unchanged, if Omega is not positive definite.

@@ -1,54 +1,144 @@
 #include "seif/seif.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
-#include "seif/measurement_update.hpp"
 #include "seif/motion_update.hpp"
+#include "seif/sparsification.hpp"
 
 namespace seif {
+namespace {
+
+constexpr int most_relinearisations = 4;  // [-] in one update
+
+}  // namespace
 
 Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
-    : state_(setup.start), options_(options), T_robot_sensor_(setup.T_robot_sensor), random_(setup.random) {}
+    : options_(options),
+      state_(setup.start),
+      mean_(options.multilevel),
+      T_robot_sensor_(setup.T_robot_sensor) {
+  if (options_.first_estimates > 0) state_.use_first_estimates(options_.first_estimates);
+}
 
 void Seif::motion_update(const Odometry& odometry) { seif::motion_update(state_, odometry); }
 
 void Seif::measurement_update(const Scan& scan, const StageDone& done) {
-  seif::measurement_update(state_, scan.observations, T_robot_sensor_);
+  state_.begin_scan();
+  activate_known(scan);
+  mean_.before_information(state_);
+  add_known(scan);
+  solve_window(scan.t);
+  if (options_.first_estimates == 0) relinearise(scan.t);
+  add_new(scan);
+  mean_.after_information(state_);
+  state_.update_first_estimates();
   done(Stage::measurement);
 
-  choose_surplus();
-  if (!to_drop_.empty() && !sparsify(state_, options_.rule, to_drop_)) {
-    throw NumericalFailure("sparsification", scan.t);
-  }
+  sparsify(scan.t);
   done(Stage::sparsification);
 
-  const bool recovered = options_.mean_recovery == MeanRecovery::exact
-                             ? solve_mean(state_)
-                             : coordinate_descent(state_, options_.random_landmarks, random_);
-  if (!recovered) throw NumericalFailure("mean recovery", scan.t);
+  recover_mean(scan.t);
   done(Stage::mean_recovery);
 }
 
-/// Fills to_drop_ with the active landmarks that are to lose their link to the robot now.
-void Seif::choose_surplus() {
-  to_drop_.clear();
+void Seif::activate_known(const Scan& scan) {
+  for (const Observation& observation : scan.observations) {
+    const std::optional<int> slot = state_.find(observation.landmark);
+    if (!slot) continue;
+    if (state_.position(*slot) < 0) mean_.activate(state_, *slot);
+    state_.mark_seen(*slot);
+  }
+}
+
+/// All linearised before the first is added.
+void Seif::add_known(const Scan& scan) {
+  factors_.clear();
+  for (const Observation& observation : scan.observations) {
+    const std::optional<int> slot = state_.find(observation.landmark);
+    if (!slot) continue;
+    factors_.push_back(linearise(state_, *slot, observation, T_robot_sensor_));
+    ObservationFactor& factor = factors_.back();
+    if (squared_norm(factor.v, factor) > options_.closing_gate) {
+      factor = linearise_at_measurement(state_, *slot, observation, T_robot_sensor_);
+    }
+  }
+  for (const ObservationFactor& factor : factors_) add(state_, factor);
+}
+
+/// Takes out those factors that the step has moved too far from where they are linear, and puts them in again
+/// where the mean is now.
+void Seif::relinearise(double t) {
+  const double most = options_.relinearise_above * options_.relinearise_above;
+  for (int round = 0; round < most_relinearisations; ++round) {
+    bool any = false;
+    for (ObservationFactor& factor : factors_) {
+      const ObservationFactor now = linearise(state_, factor.slot, factor.observation, T_robot_sensor_);
+      Eigen::Vector2d nonlinearity = now.v - residual(state_, factor);
+      nonlinearity(1) = wrap_angle(nonlinearity(1));
+      if (squared_norm(nonlinearity, factor) <= most) continue;
+      subtract(state_, factor);
+      add(state_, now);
+      factor = now;
+      any = true;
+    }
+    if (!any) return;
+    solve_window(t);
+  }
+}
+
+/// Landmarks never seen before, placed from the pose as the others have corrected it: their innovation is
+/// zero.
+void Seif::add_new(const Scan& scan) {
+  for (const Observation& observation : scan.observations) {
+    if (state_.find(observation.landmark)) continue;
+    const int slot =
+        state_.add_landmark(observation.landmark,
+                            invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark);
+    mean_.join(state_, slot);
+    state_.mark_seen(slot);
+    add(state_, linearise(state_, slot, observation, T_robot_sensor_));
+  }
+}
+
+void Seif::solve_window(double t) {
+  if (!mean_.solve_window(state_)) throw NumericalFailure("local solve", t);
+}
+
+/// In a burst: that costs less, and keeps more, than holding the bound at each update.
+void Seif::sparsify(double t) {
   if (state_.active_count() <= std::max(options_.theta_x, options_.theta_max)) return;
-  choose_to_drop(state_, options_.drop, state_.active_count() - options_.theta_x, to_drop_);
-  if (options_.keep_in_view) {
-    std::erase_if(to_drop_, [this](int slot) { return state_.scans_since_seen(slot) == 0; });
+  choose_to_drop(state_, DropOrder::least_recently_seen, state_.active_count() - options_.theta_x, to_drop_);
+  std::erase_if(to_drop_, [this](int slot) { return state_.scans_since_seen(slot) == 0; });
+  if (to_drop_.empty()) return;
+  const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
+  if (!anchoring) throw NumericalFailure("sparsification", t);
+  anchoring_ += *anchoring;
+}
+
+/// With the exact mean the groups never move, and stay out of the way.
+void Seif::recover_mean(double t) {
+  if (!(options_.exact_mean ? solve_mean(state_) : mean_.correct(state_))) {
+    throw NumericalFailure("mean recovery", t);
   }
 }
 
 Counts Seif::counts() const {
-  return {.blocks_touched = state_.blocks_touched(),
+  return {.blocks_touched = state_.blocks_touched() + mean_.blocks_touched(),
           .active_landmarks = state_.active_count(),
-          .links = state_.link_count()};
+          .links = state_.link_count(),
+          .mean_residual = mean_.residual(),
+          .anchoring = anchoring_};
 }
 
-std::vector<LandmarkEstimate> Seif::map() const { return map_of(state_); }
+std::vector<LandmarkEstimate> Seif::map() const {
+  std::vector<LandmarkEstimate> map;
+  for (int slot = 0; slot < state_.landmark_count(); ++slot) {
+    map.push_back({state_.id(slot), mean_.mean(state_, slot)});
+  }
+  return map;
+}
 
 std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
   return marginals_of(state_, landmarks);

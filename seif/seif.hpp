@@ -1,40 +1,33 @@
-// The sparse extended information filter: motion update, measurement update, sparsification, mean recovery.
+// Our sparse extended information filter: constant time, and as accurate and as consistent as the dense ones.
 #pragma once
 
-#include <random>
 #include <vector>
 
 #include "seif/estimator.hpp"
 #include "seif/information_state.hpp"
-#include "seif/sparsification.hpp"
+#include "seif/multilevel_mean.hpp"
+#include "seif/observation_factor.hpp"
 
 namespace seif {
 
-enum class MeanRecovery {
-  coordinate_descent,  // the report's, in constant time
-  exact                // by sparse Cholesky: not in constant time
-};
-
-/// The defaults are the report's filter, in constant time.
 struct SeifOptions {
-  int theta_x = 6;    // [-] landmarks that keep their link to the robot after a sparsification
-  int theta_max = 0;  // [-] sparsify only when the robot has more links than this; at most theta_x: at once
-  SparsificationRule rule = SparsificationRule::report;
-  DropOrder drop = DropOrder::weakest_out_of_view;  // which of the active landmarks lose their link first
-  bool keep_in_view = false;  // never drop a landmark of the latest scan, whatever the bounds say
-  MeanRecovery mean_recovery = MeanRecovery::coordinate_descent;
-  int random_landmarks = 10;  // [-] K of the coordinate descent, beside the active ones
+  int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
+  int theta_max = 16;  // [-] sparsify only when the robot has more links than this
+  /// [-] A landmark is linearised where it is believed to be after so many scans that saw it, the pose where
+  /// it was predicted. 0: both at the mean, and again after the update if they have moved too far.
+  int first_estimates = 5;
+  double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
+  double closing_gate = 200.0;  // [-] v' Q^-1 v above which an observation is linearised at what was measured
+  bool exact_mean = false;      // by sparse Cholesky, not in constant time
+  MultilevelOptions multilevel;
 };
 
-/// Thrun, Koller, Ghahramani, Durrant-Whyte, Ng, "Simultaneous Mapping and Localization With Sparse Extended
-/// Information Filters", 2002. As the report has it but for the slips that motion_update.hpp names. theta_y
-/// is not enforced: the report gives no rule for it. With the report's rule it is overconfident; that is a
-/// finding, not a bug.
-///
-/// The report drops the weakest links, and expects those to be of the landmarks seen longest ago. Where more
-/// than theta_x landmarks are in view that does not follow: the first landmarks then keep the strongest links
-/// for ever, and information grows exponentially with the distance from them. So the default drops those in
-/// view last; DropOrder::weakest_link is to the letter.
+/// What it does otherwise than the report's filter:
+/// - keeps r = xi - Omega mu, so that a step of the mean is exact (information_state);
+/// - solves for robot and active landmarks after the observations, and places new landmarks from there;
+/// - takes Jacobians at first estimates, so that it does not learn what nothing observes;
+/// - sparsifies by the gauge-free rule, in bursts, and never what is in view (sparsification);
+/// - moves groups of landmarks of every size, each update a few (multilevel_mean).
 class Seif final : public Estimator {
  public:
   Seif(const EstimatorSetup& setup, const SeifOptions& options);
@@ -43,7 +36,7 @@ class Seif final : public Estimator {
   void measurement_update(const Scan& scan, const StageDone& done) override;
   Pose2 pose() const override { return state_.pose(); }
   Counts counts() const override;
-  std::size_t memory_bytes() const override { return state_.memory_bytes(); }
+  std::size_t memory_bytes() const override { return state_.memory_bytes() + mean_.memory_bytes(); }
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
@@ -51,13 +44,21 @@ class Seif final : public Estimator {
   const InformationState& state() const { return state_; }
 
  private:
-  void choose_surplus();
+  void activate_known(const Scan& scan);
+  void add_known(const Scan& scan);
+  void add_new(const Scan& scan);
+  void relinearise(double t);
+  void solve_window(double t);
+  void sparsify(double t);
+  void recover_mean(double t);
 
-  InformationState state_;
   SeifOptions options_;
+  InformationState state_;
+  MultilevelMean mean_;
   Pose2 T_robot_sensor_;
-  std::mt19937_64 random_;
-  std::vector<int> to_drop_;  // slots; kept so that no update allocates
+  double anchoring_ = 0.0;                  // [nat]
+  std::vector<ObservationFactor> factors_;  // of the latest scan
+  std::vector<int> to_drop_;                // slots; kept so that no update allocates
 };
 
 }  // namespace seif

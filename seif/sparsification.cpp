@@ -28,6 +28,21 @@ bool marginalise_landmark(Eigen::Ref<Eigen::MatrixXd> M, int row, Columns column
   return true;
 }
 
+/// Marginalises the landmarks `slots` out of D in state.work(). False if D is not positive definite there.
+bool marginalise_landmarks(InformationState& state, std::span<const int> slots) {
+  for (const int slot : slots) {
+    const int row = InformationState::row_of(state.position(slot));
+    if (!marginalise_landmark(state.work(), row, state.work_columns())) return false;
+  }
+  state.touch(static_cast<int>(slots.size()) * state.window_blocks());
+  return true;
+}
+
+/// Of a positive definite matrix (3 x 3).
+double log_determinant(const Eigen::Matrix3d& M) {
+  return 2.0 * M.llt().matrixLLT().diagonal().array().log().sum();
+}
+
 /// Takes away the robot's links to the landmarks `slots`. With D in state.work(), the belief over the window
 /// from which p(x | Y+) is to be taken, and x, K, Z the robot and the landmarks that stay and that go, (50)
 /// is
@@ -38,10 +53,7 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
   auto Omega = state.Omega();
   auto D = state.work();          // (w x w)
   auto V = state.work_columns();  // (w x 3)
-  for (const int slot : slots) {
-    const int row = InformationState::row_of(state.position(slot));
-    if (!marginalise_landmark(D, row, V)) return false;
-  }
+  if (!marginalise_landmarks(state, slots)) return false;
   for (const int slot : slots) {  // zero but for rounding
     D.topRows<3>().middleCols<2>(InformationState::row_of(state.position(slot))).setZero();
   }
@@ -61,7 +73,7 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
   V_m = Omega.bottomLeftCorner(rows, 3);
   Lambda.matrixU().solveInPlace<Eigen::OnTheRight>(V_m);
   Omega_mm.noalias() += V_m * V_m.transpose();
-  state.touch((static_cast<int>(slots.size()) + 2) * state.window_blocks());
+  state.touch(2 * state.window_blocks());
   for (const int slot : slots) state.deactivate(state.position(slot));
   return true;
 }
@@ -95,12 +107,13 @@ std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
 /// about the robot; each scaled to unit length. `scales` gets the lengths.
 void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const Eigen::MatrixXd>& D,
                           Columns V, Eigen::Vector3d& scales) {
-  const Pose2 pose = state.pose();
+  const Pose2 pose = state.linearisation_pose();
   V = D.leftCols<3>();
   double squared_levers = 0.0;
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
-    const Eigen::Vector2d lever = state.mean(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    const Eigen::Vector2d lever =
+        state.linearisation_point(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
     V.leftCols<2>() += D.middleCols<2>(row);
     V.col(2) += lever.x() * D.col(row + 1) - lever.y() * D.col(row);
     squared_levers += lever.squaredNorm();
@@ -113,11 +126,12 @@ void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const 
 /// P' V (3 x 3), with P as above.
 Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Columns& V,
                                        const Eigen::Vector3d& scales) {
-  const Pose2 pose = state.pose();
+  const Pose2 pose = state.linearisation_pose();
   Eigen::Matrix3d PtV = V.topRows<3>();
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
-    const Eigen::Vector2d lever = state.mean(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    const Eigen::Vector2d lever =
+        state.linearisation_point(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
     PtV.topRows<2>() += V.middleRows<2>(row);
     PtV.row(2) += lever.x() * V.row(row + 1) - lever.y() * V.row(row);
   }
@@ -146,25 +160,32 @@ void float_window(InformationState& state) {
 
 }  // namespace
 
-bool sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
+std::optional<double> sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
   assert(static_cast<int>(slots.size()) < state.active_count());
+  double anchored = 0.0;
+  state.work() = state.Omega();
+  if (rule != SparsificationRule::report) {
+    if (!marginalise_landmarks(state, slots)) return std::nullopt;
+    anchored = log_determinant(state.work().topLeftCorner<3, 3>());
+  }
   switch (rule) {
     case SparsificationRule::report:
-      state.work() = state.Omega();
       break;
     case SparsificationRule::gauge_free:
       state.work() = state.Omega();
       float_window(state);
       break;
-    case SparsificationRule::modified:
-      if (const auto marginal = window_marginal(state)) {
-        state.work() = *marginal;
-        state.touch(std::int64_t{state.landmark_count()});
-        break;
-      }
-      return false;
+    case SparsificationRule::modified: {
+      const std::optional<Eigen::MatrixXd> marginal = window_marginal(state);
+      if (!marginal) return std::nullopt;
+      state.work() = *marginal;
+      state.touch(std::int64_t{state.landmark_count()});
+      break;
+    }
   }
-  return drop_links(state, slots);
+  if (!drop_links(state, slots)) return std::nullopt;
+  if (rule == SparsificationRule::report) return 0.0;
+  return anchored - log_determinant(state.Omega().topLeftCorner<3, 3>());
 }
 
 void choose_to_drop(const InformationState& state, DropOrder order, int count, std::vector<int>& slots) {

@@ -1,6 +1,7 @@
 // Sparsification: takes away the robot's links to some of the active landmarks; section 3.3 of the report.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,9 +30,14 @@ enum class SparsificationRule {
 };
 
 /// Takes away the robot's links to the active landmarks `slots`, which become passive. r stays, and so does
-/// the mean, eq. (51). At least one landmark must stay active. False, with the state unchanged, if a matrix
-/// turns out not to be positive definite.
-[[nodiscard]] bool sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots);
+/// the mean, eq. (51). At least one landmark must stay active; with gauge_free two, at different places.
+///
+/// Returns how much less D knows of the pose, given the landmarks that stay, than the report's rule takes it
+/// to know: log det Lambda(H0) - log det Lambda(D), with Lambda the information of p(x | Y+). [nat] That is
+/// the anchoring to the world frame that was left out. Nothing, with the state unchanged, if a matrix turns
+/// out not to be positive definite.
+[[nodiscard]] std::optional<double> sparsify(InformationState& state, SparsificationRule rule,
+                                             std::span<const int> slots);
 
 /// Which active landmarks lose their link to the robot first. A link's strength is the Frobenius norm of its
 /// block.

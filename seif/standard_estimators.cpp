@@ -8,6 +8,7 @@
 #include "seif/ekf.hpp"
 #include "seif/eseif.hpp"
 #include "seif/registry.hpp"
+#include "seif/report_seif.hpp"
 #include "seif/seif.hpp"
 
 namespace seif {
@@ -59,10 +60,10 @@ EstimatorType seif_report() {
       .help = "The report's SEIF in constant time, faithful to its sparsification rule and so overconfident.",
       .options = {theta_x, drop, K},
       .make = [](const EstimatorSetup& setup, const Options& options) {
-        return std::make_unique<Seif>(
-            setup, SeifOptions{.theta_x = integer(options, theta_x),
-                               .drop = drop_orders.at(option<std::string>(options, drop.key)),
-                               .random_landmarks = integer(options, K)});
+        return std::make_unique<ReportSeif>(
+            setup, ReportSeifOptions{.theta_x = integer(options, theta_x),
+                                     .drop = drop_orders.at(option<std::string>(options, drop.key)),
+                                     .random_landmarks = integer(options, K)});
       }};
 }
 
@@ -73,12 +74,71 @@ EstimatorType seif_with_exact_mean(const std::string& name, const std::string& h
           .help = help,
           .options = {theta_x, drop},
           .make = [rule](const EstimatorSetup& setup, const Options& options) {
-            return std::make_unique<Seif>(
-                setup, SeifOptions{.theta_x = integer(options, theta_x),
-                                   .rule = rule,
-                                   .drop = drop_orders.at(option<std::string>(options, drop.key)),
-                                   .mean_recovery = MeanRecovery::exact});
+            return std::make_unique<ReportSeif>(
+                setup, ReportSeifOptions{.theta_x = integer(options, theta_x),
+                                         .rule = rule,
+                                         .drop = drop_orders.at(option<std::string>(options, drop.key)),
+                                         .mean_recovery = MeanRecovery::exact});
           }};
+}
+
+EstimatorType seif() {
+  const SeifOptions defaults;
+  const OptionSpec first_estimates{
+      .key = "first_estimates",
+      .fallback = std::int64_t{defaults.first_estimates},
+      .min = 0,
+      .max = 1000,
+      .help =
+          "Scans after which a landmark's place is settled for all Jacobians to come; 0: Jacobians at the "
+          "mean, relinearised [-]."};
+  const OptionSpec relinearise_above{
+      .key = "relinearise_above",
+      .fallback = defaults.relinearise_above,
+      .min = 0.0,
+      .help =
+          "With first_estimates 0: nonlinearity of an observation above which it is linearised again "
+          "[sigma]."};
+  const OptionSpec closing_gate{
+      .key = "closing_gate",
+      .fallback = defaults.closing_gate,
+      .min = 0.0,
+      .help =
+          "Squared innovation over its noise above which an observation is linearised at what was measured "
+          "[-]."};
+  const OptionSpec mean_recovery{.key = "mean_recovery",
+                                 .fallback = std::string("multilevel"),
+                                 .choices = {"multilevel", "exact"},
+                                 .help = "How the mean is recovered; exact is not in constant time."};
+  const OptionSpec other_groups{
+      .key = "other_groups",
+      .fallback = std::int64_t{defaults.multilevel.other_groups},
+      .min = 0,
+      .max = 1000,
+      .help = "Groups of each level that an update moves, beside those about the robot [-]."};
+  const OptionSpec relaxed_groups{
+      .key = "relaxed_groups",
+      .fallback = std::int64_t{defaults.multilevel.relaxed_groups},
+      .min = 0,
+      .max = 1000,
+      .help = "Groups of about ten landmarks whose landmarks an update relaxes one by one [-]."};
+  return {
+      .name = "seif",
+      .help = "Ours: gauge-free sparsification, first-estimates Jacobians, multilevel mean; constant time.",
+      .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
+                  other_groups, relaxed_groups},
+      .make = [=](const EstimatorSetup& setup, const Options& options) {
+        SeifOptions chosen;
+        chosen.theta_x = integer(options, theta_x);
+        chosen.theta_max = integer(options, theta_max);
+        chosen.first_estimates = integer(options, first_estimates);
+        chosen.relinearise_above = option<double>(options, relinearise_above.key);
+        chosen.closing_gate = option<double>(options, closing_gate.key);
+        chosen.exact_mean = option<std::string>(options, mean_recovery.key) == "exact";
+        chosen.multilevel.other_groups = integer(options, other_groups);
+        chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
+        return std::make_unique<Seif>(setup, chosen);
+      }};
 }
 
 EstimatorType seif_gauge_free() {
@@ -89,12 +149,12 @@ EstimatorType seif_gauge_free() {
           "rule alone costs.",
       .options = {theta_x, theta_max},
       .make = [](const EstimatorSetup& setup, const Options& options) {
-        return std::make_unique<Seif>(setup, SeifOptions{.theta_x = integer(options, theta_x),
-                                                         .theta_max = integer(options, theta_max),
-                                                         .rule = SparsificationRule::gauge_free,
-                                                         .drop = DropOrder::least_recently_seen,
-                                                         .keep_in_view = true,
-                                                         .mean_recovery = MeanRecovery::exact});
+        return std::make_unique<ReportSeif>(setup, ReportSeifOptions{.theta_x = integer(options, theta_x),
+                                                                     .theta_max = integer(options, theta_max),
+                                                                     .rule = SparsificationRule::gauge_free,
+                                                                     .drop = DropOrder::least_recently_seen,
+                                                                     .keep_in_view = true,
+                                                                     .mean_recovery = MeanRecovery::exact});
       }};
 }
 
@@ -139,6 +199,7 @@ Registry standard_estimators() {
                            "The SEIF with Eustice's modified rule and exact mean: not in constant time; an "
                            "oracle for consistent sparsification.",
                            SparsificationRule::modified));
+  registry.add(seif());
   registry.add(seif_gauge_free());
   registry.add(eseif());
   return registry;

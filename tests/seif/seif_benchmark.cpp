@@ -8,7 +8,7 @@
 
 #include "ring_drive.hpp"
 #include "seif/ekf.hpp"
-#include "seif/seif.hpp"
+#include "seif/report_seif.hpp"
 #include "seif/symmetric_downdate.hpp"
 
 namespace seif {
@@ -48,7 +48,7 @@ BENCHMARK(ekf_update)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-void seif_report_update(benchmark::State& state) { update<Seif>(state, SeifOptions{}); }
+void seif_report_update(benchmark::State& state) { update<ReportSeif>(state, ReportSeifOptions{}); }
 BENCHMARK(seif_report_update)
     ->Arg(50)
     ->Arg(1000)

@@ -1,4 +1,4 @@
-#include "seif/seif.hpp"
+#include "seif/report_seif.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ constexpr bool under_sanitizer = true;  // tens of times slower
 constexpr bool under_sanitizer = false;
 #endif
 
-TEST(Seif, BoundsTheActiveLandmarksByThetaX) {
+TEST(ReportSeif, BoundsTheActiveLandmarksByThetaX) {
   RingDrive drive(60, 1);
-  Seif filter(drive.setup(), {.theta_x = 4, .random_landmarks = 5});
+  ReportSeif filter(drive.setup(), {.theta_x = 4, .random_landmarks = 5});
   for (int k = 0; k < 200; ++k) {
     drive.step(filter);
     EXPECT_LE(filter.counts().active_landmarks, 4);
@@ -33,10 +33,10 @@ TEST(Seif, BoundsTheActiveLandmarksByThetaX) {
   EXPECT_EQ(filter.map().size(), 60U);
 }
 
-TEST(Seif, EqualsTheDenseInformationFilterWithoutSparsificationAndWithExactMean) {
+TEST(ReportSeif, EqualsTheDenseInformationFilterWithoutSparsificationAndWithExactMean) {
   RingDrive drive_sparse(40, 8);
   RingDrive drive_dense(40, 8);
-  Seif sparse(drive_sparse.setup(), {.theta_x = 1000, .mean_recovery = MeanRecovery::exact});
+  ReportSeif sparse(drive_sparse.setup(), {.theta_x = 1000, .mean_recovery = MeanRecovery::exact});
   Eif dense(drive_dense.setup());
   for (int k = 0; k < 150; ++k) {
     drive_sparse.step(sparse);
@@ -48,11 +48,11 @@ TEST(Seif, EqualsTheDenseInformationFilterWithoutSparsificationAndWithExactMean)
   EXPECT_EQ(sparse.counts().links, dense.counts().links);
 }
 
-TEST(Seif, GivesTheSameBitsForTheSameRandomStream) {
+TEST(ReportSeif, GivesTheSameBitsForTheSameRandomStream) {
   RingDrive drive_a(60, 2);
   RingDrive drive_b(60, 2);
-  Seif a(drive_a.setup(), {});
-  Seif b(drive_b.setup(), {});
+  ReportSeif a(drive_a.setup(), {});
+  ReportSeif b(drive_b.setup(), {});
   for (int k = 0; k < 150; ++k) {
     drive_a.step(a);
     drive_b.step(b);
@@ -64,7 +64,7 @@ TEST(Seif, GivesTheSameBitsForTheSameRandomStream) {
 /// Mean number of blocks touched by an update at the end of one round.
 double blocks_touched(int landmarks) {
   RingDrive drive(landmarks, 3);
-  Seif filter(drive.setup(), {});
+  ReportSeif filter(drive.setup(), {});
   const int measured = 100;
   for (int k = 0; k < drive.steps_for_a_round() - measured; ++k) drive.step(filter);
   const std::int64_t before = filter.counts().blocks_touched;
@@ -72,15 +72,15 @@ double blocks_touched(int landmarks) {
   return static_cast<double>(filter.counts().blocks_touched - before) / measured;
 }
 
-TEST(Seif, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
+TEST(ReportSeif, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
   const double small = blocks_touched(300);
   const double large = blocks_touched(under_sanitizer ? 1'000 : 20'000);
   EXPECT_NEAR(large / small, 1.0, 0.1);
 }
 
-TEST(Seif, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
+TEST(ReportSeif, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
   RingDrive drive(300, 3);
-  Seif filter(drive.setup(), {.drop = DropOrder::weakest_link});
+  ReportSeif filter(drive.setup(), {.drop = DropOrder::weakest_link});
   EXPECT_THROW(
       {
         for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) drive.step(filter);
@@ -88,19 +88,19 @@ TEST(Seif, DroppingTheWeakestLinkToTheLetterNeverLetsGoOfTheFirstLandmarks) {
       NumericalFailure);
 }
 
-TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
+TEST(ReportSeif, AllocatesNothingOnceTheMapIsBuilt) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
   RingDrive drive(60, 4);
-  Seif filter(drive.setup(), {});
+  ReportSeif filter(drive.setup(), {});
   for (int k = 0; k < 3 * drive.steps_for_a_round(); ++k) drive.step(filter);
   const long before = allocations();
   for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
   EXPECT_EQ(allocations(), before);
 }
 
-TEST(Seif, TakesEmptyScansAndAWorldWithoutLandmarks) {
+TEST(ReportSeif, TakesEmptyScansAndAWorldWithoutLandmarks) {
   RingDrive drive(60, 5);
-  Seif filter(drive.setup(), {});
+  ReportSeif filter(drive.setup(), {});
   filter.measurement_update({.t = 0.0, .observations = {}}, ignore);
   EXPECT_TRUE(filter.map().empty());
   EXPECT_EQ(filter.counts().links, 0);

@@ -1,0 +1,152 @@
+// Recovers the mean in steps of bounded work, by rigid motions of groups of landmarks of every size.
+//
+// Relaxing landmark after landmark hardly moves an error that is smooth over many of them. So landmarks are
+// gathered in groups of about ten, these in larger groups, and so on, and a group of any level can be moved
+// as a rigid body:
+//
+//   level 2               [        a        ]        by (t, phi) about the group's centre c:
+//   level 1        [    b    ][    c    ][    d    ]    p <- p + t + phi J (p - c)
+//   landmarks      o o o o o o o o o o o o o o o o
+//
+// A level's equations are Galerkin's: A = B' Omega B and R = B' r, the columns of B being the rigid motions
+// of its groups, and the robot following the landmarks. No motion is carried out before somebody looks: the
+// mean of a passive landmark is what is stored of it, plus what its groups have moved since. So a step costs
+// the same in any map, but for the number of levels, which grows with its logarithm.
+//
+// Glossary: d motion of a group (3), total: with the groups above it; q force, the dual of a motion (3);
+//           missing: what the stored mean of a passive landmark lacks; pull: what this does to the r of
+//           others.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "seif/chunked_array.hpp"
+#include "seif/information_state.hpp"
+
+namespace seif {
+
+struct MultilevelOptions {
+  double over_correction = 1.3;  // [-] of a group's step: rigid groups make a level too stiff
+  int other_groups = 4;          // [-] of each level that are moved in turn, beside those about the window
+  int relaxed_groups = 2;  // [-] whose landmarks are relaxed one by one: one about the window, others in turn
+};
+
+class MultilevelMean {
+ public:
+  explicit MultilevelMean(const MultilevelOptions& options) : options_(options) {}
+
+  /// A landmark that has just joined the map: into a group with landmarks that are active.
+  void join(const InformationState& state, int slot);
+
+  /// Takes a passive landmark into the window, with its mean as it is now.
+  void activate(InformationState& state, int slot);
+
+  /// p_world_landmark with all that its groups have moved. [m]
+  Eigen::Vector2d mean(const InformationState& state, int slot) const;
+
+  /// Before and after a scan's information is added; all known landmarks that it sees are active both times.
+  /// What the groups know of each other changes by the difference.
+  void before_information(const InformationState& state);
+  void after_information(const InformationState& state);
+
+  /// The mean of robot and active landmarks given that of the others. False, with nothing changed, if the
+  /// window's Omega is not positive definite.
+  [[nodiscard]] bool solve_window(InformationState& state);
+
+  /// Moves the groups about the window and a few others, from the largest to the smallest, then single
+  /// landmarks, then solves for the window again. False as above.
+  [[nodiscard]] bool correct(InformationState& state);
+
+  /// Sum of R' A^-1 R over the groups of level 1, each as it was when last touched: bounds the squared error
+  /// of the mean, in units of sigma, from below up to a factor of one and the most neighbours of a group. [-]
+  double residual() const { return residual_; }
+
+  std::int64_t blocks_touched() const { return blocks_touched_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Link {
+    int other;          // a group of the same level
+    Eigen::Matrix3d A;  // (3 x 3) rows: this one; columns: the other
+  };
+  struct Group {
+    int level = 1;
+    int parent = -1;
+    int members = 0;                                   // [-] landmarks or groups
+    int first_member = -1;                             // slot; level 1 only
+    Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // p_world [m], of the first mean of the first member
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();       // all its own motion so far [m, m, rad]
+    Eigen::Vector3d S = Eigen::Vector3d::Zero();       // R = S - A total, the sum over itself and its links
+    Eigen::Vector3d q = Eigen::Vector3d::Zero();       // forces not yet in S, nor passed on to the parent
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    std::vector<Link> links;
+    double residual = 0.0;  // R' A^-1 R when last touched
+    int visit = 0;          // mark of the last walk that came by
+    bool has_forces = false;
+    // total() of the group, and of which count of motions.
+    Eigen::Vector3d cached_total = Eigen::Vector3d::Zero();
+    std::int64_t cached_at = -1;
+  };
+  struct Member {
+    int group = -1;
+    int next = -1;                                    // slot of the next landmark of the group
+    Eigen::Vector2d lever = Eigen::Vector2d::Zero();  // from the centre of its group [m]
+    Eigen::Vector2d stored =
+        Eigen::Vector2d::Zero();  // the part of its groups' motion in its stored mean [m]
+  };
+
+  Group& group(int i) { return groups_[static_cast<std::size_t>(i)]; }
+  const Group& group(int i) const { return groups_[static_cast<std::size_t>(i)]; }
+  Member& member(int slot) { return members_[static_cast<std::size_t>(slot)]; }
+  const Member& member(int slot) const { return members_[static_cast<std::size_t>(slot)]; }
+
+  int add_group(int level, const Eigen::Vector2d& centre);
+  void add_root();
+  int find_group(int level, const Eigen::Vector2d& position);
+  void gather_groups_of_window(const InformationState& state);
+  void go_up();
+
+  const Eigen::Vector3d& total(int i) const;
+  void move(int i, const Eigen::Vector3d& d);
+  Eigen::Vector2d missing(int slot) const;
+  Eigen::Vector2d pull(const InformationState& state, int slot) const;
+
+  void add_force(int i, const Eigen::Vector3d& q);
+  void add_force_of(int slot, const Eigen::Vector2d& f);
+  void pass_forces_on();
+  void add_information(int i, int j, const Eigen::Matrix3d& A);
+  Eigen::Matrix3d& link(int i, int j);
+
+  Eigen::Vector3d residual_force(int i) const;
+  void relax(int i);
+  void note_residual(int i, double residual);
+  void relax_landmarks(InformationState& state, int i);
+  void relax_landmark(InformationState& state, int slot);
+  void carry_window(InformationState& state);
+
+  MultilevelOptions options_;
+  mutable ChunkedArray<Group> groups_;  // mutable for cached totals
+  ChunkedArray<Member> members_;        // by slot
+  int root_ = -1;
+  std::vector<std::vector<int>> levels_;       // groups, by level - 1
+  std::vector<std::size_t> turn_;              // whose turn it is, by level - 1
+  std::vector<std::vector<int>> have_forces_;  // groups, by level - 1
+  std::size_t near_turn_ = 0;
+  std::size_t any_turn_ = 0;
+  std::vector<int> near_;   // the groups of one level that hold the window
+  std::vector<int> place_;  // by position in the window, or by group of the level below: where it is in near_
+  int visit_ = 0;
+  std::int64_t motions_ = 0;
+  double residual_ = 0.0;
+  std::int64_t blocks_touched_ = 0;
+
+  int active_before_ = 0;
+  Eigen::MatrixXd D_before_, D_after_;             // (2k x 2k) information of the window without the robot
+  Eigen::MatrixXd change_, change_above_;          // (3g x 3g) of the groups in near_
+  Eigen::Matrix<double, Eigen::Dynamic, 3> half_;  // (2k x 3)
+  Eigen::VectorXd step_;                           // (w x 1)
+};
+
+}  // namespace seif

@@ -1,0 +1,79 @@
+#include "seif/observation_factor.hpp"
+
+#include <Eigen/LU>
+#include <cassert>
+
+namespace seif {
+namespace {
+
+ObservationFactor unlinearised(const InformationState& state, int slot, const Observation& observation) {
+  ObservationFactor factor;
+  factor.slot = slot;
+  factor.observation = observation;
+  factor.Q_inverse = observation.covariance.inverse();
+  factor.x0 = state.pose();
+  factor.m0 = state.mean(slot);
+  return factor;
+}
+
+void add_scaled(InformationState& state, const ObservationFactor& factor, double sign) {
+  const int row = InformationState::row_of(state.position(factor.slot));
+  const Eigen::Vector2d v = residual(state, factor);
+  const Eigen::Matrix<double, 3, 2> C_x = sign * factor.J_x.transpose() * factor.Q_inverse;
+  const Eigen::Matrix2d C_m = sign * factor.J_m.transpose() * factor.Q_inverse;
+  const Eigen::Matrix<double, 3, 2> Omega_xm = C_x * factor.J_m;
+  auto Omega = state.Omega();
+  Omega.topLeftCorner<3, 3>() += C_x * factor.J_x;
+  Omega.block<3, 2>(0, row) += Omega_xm;
+  Omega.block<2, 3>(row, 0) += Omega_xm.transpose();
+  Omega.block<2, 2>(row, row) += C_m * factor.J_m;
+  state.r().head<3>() += C_x * v;
+  state.r().segment<2>(row) += C_m * v;
+  state.touch(3);
+}
+
+}  // namespace
+
+ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
+                            const Pose2& T_robot_sensor) {
+  ObservationFactor factor = unlinearised(state, slot, observation);
+  factor.v = innovation(observation, predict_observation(factor.x0, T_robot_sensor, factor.m0).z);
+  const PredictedObservation predicted =
+      predict_observation(state.linearisation_pose(), T_robot_sensor, state.linearisation_point(slot));
+  factor.J_x = predicted.J_wrt_pose;
+  factor.J_m = predicted.J_wrt_landmark;
+  return factor;
+}
+
+ObservationFactor linearise_at_measurement(const InformationState& state, int slot,
+                                           const Observation& observation, const Pose2& T_robot_sensor) {
+  ObservationFactor factor = unlinearised(state, slot, observation);
+  const Eigen::Vector2d seen_at = invert_observation(factor.x0, T_robot_sensor, observation).p_world_landmark;
+  const PredictedObservation predicted = predict_observation(factor.x0, T_robot_sensor, seen_at);
+  factor.J_x = predicted.J_wrt_pose;
+  factor.J_m = predicted.J_wrt_landmark;
+  factor.v = factor.J_m * (seen_at - factor.m0);  // at seen_at the innovation is zero
+  return factor;
+}
+
+Eigen::Vector2d residual(const InformationState& state, const ObservationFactor& factor) {
+  const Pose2 x = state.pose();
+  const Eigen::Vector3d dx(x.x - factor.x0.x, x.y - factor.x0.y, wrap_angle(x.theta - factor.x0.theta));
+  return factor.v - factor.J_x * dx - factor.J_m * (state.mean(factor.slot) - factor.m0);
+}
+
+double squared_norm(const Eigen::Vector2d& v, const ObservationFactor& factor) {
+  return v.dot(factor.Q_inverse * v);
+}
+
+void add(InformationState& state, const ObservationFactor& factor) {
+  if (state.position(factor.slot) < 0) state.activate(factor.slot);
+  add_scaled(state, factor, 1.0);
+}
+
+void subtract(InformationState& state, const ObservationFactor& factor) {
+  assert(state.position(factor.slot) >= 0);
+  add_scaled(state, factor, -1.0);
+}
+
+}  // namespace seif

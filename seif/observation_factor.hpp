@@ -1,0 +1,46 @@
+// One observation linearised: what it adds to the information form, and how to take exactly that out again.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "seif/information_state.hpp"
+#include "seif/models.hpp"
+#include "seif/types.hpp"
+
+namespace seif {
+
+/// Says of the pose x and the landmark m that J_x (x - x0) + J_m (m - m0) = v, with covariance Q.
+struct ObservationFactor {
+  int slot = -1;
+  Observation observation;
+  Matrix23 J_x = Matrix23::Zero();                      // (2 x 3)
+  Eigen::Matrix2d J_m = Eigen::Matrix2d::Zero();        // (2 x 2)
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();          // innovation at x0, m0 [m, rad]
+  Eigen::Matrix2d Q_inverse = Eigen::Matrix2d::Zero();  // (2 x 2)
+  Pose2 x0;                                             // T_world_robot
+  Eigen::Vector2d m0 = Eigen::Vector2d::Zero();         // p_world_landmark [m]
+};
+
+/// Linearised at the mean of the state.
+ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
+                            const Pose2& T_robot_sensor);
+
+/// Linearised where the sensor says that the landmark is, seen from the mean of the pose: for a pose so wrong
+/// that the direction in which it believes the landmark to lie is useless, as after a long loop.
+ObservationFactor linearise_at_measurement(const InformationState& state, int slot,
+                                           const Observation& observation, const Pose2& T_robot_sensor);
+
+/// What the factor expects the innovation to be at the present mean: v - J (mu - mu_0). [m, rad]
+Eigen::Vector2d residual(const InformationState& state, const ObservationFactor& factor);
+
+/// v' Q^-1 v. [-]
+double squared_norm(const Eigen::Vector2d& v, const ObservationFactor& factor);
+
+/// (21), (22): Omega += J' Q^-1 J, and r += J' Q^-1 v with v at the present mean. Takes the landmark into the
+/// window.
+void add(InformationState& state, const ObservationFactor& factor);
+
+/// Takes out what add() put in, whatever the mean has become since. The landmark must be active still.
+void subtract(InformationState& state, const ObservationFactor& factor);
+
+}  // namespace seif
