@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "fixtures.hpp"
+#include "harness/registry.hpp"
 
 namespace harness {
 namespace {
@@ -152,7 +153,7 @@ TEST(CommandLine, SchemaIsJsonAndEstimatorsAreListed) {
   const TemporaryFolder folder;
   EXPECT_TRUE(nlohmann::json::parse(call(folder, "schema").output).is_object());
   const std::string list = call(folder, "estimators").output;
-  const seif::Registry registry = seif::standard_estimators();
+  const seif::Registry registry = known_estimators();
   for (const seif::EstimatorType& type : registry.types())
     EXPECT_NE(list.find(type.name + "\n"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "harness/log_stream.hpp"
+#include "harness/registry.hpp"
 #include "harness/simulated_stream.hpp"
 
 namespace harness::test {
@@ -64,7 +65,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 seif::Registry test_registry() {
-  seif::Registry registry = seif::standard_estimators();
+  seif::Registry registry = known_estimators();
   seif::EstimatorType type;
   type.name = "dead_reckoning";
   type.help = "Odometry alone.";

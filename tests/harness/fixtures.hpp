@@ -41,7 +41,7 @@ RunResult run_live(const worlds::World& world, const std::filesystem::path& fold
 RunResult replay(const worlds::World& world, const std::filesystem::path& from,
                  const std::filesystem::path& to);
 
-/// The estimators of the library, and `dead_reckoning`, whose map stays empty and which throws after
+/// The estimators of the program, and `dead_reckoning`, whose map stays empty and which throws after
 /// `fail_after_scans` if that is not zero.
 seif::Registry test_registry();
 

@@ -13,9 +13,8 @@ namespace harness {
 namespace {
 
 worlds::World gallery_world(const std::string& name, std::vector<std::string> overrides) {
-  const worlds::LoadResult loaded =
-      worlds::load_world(SEIFBED_SOURCE_DIR "/worlds/" + name + ".yaml", overrides,
-                         estimator_schemas(seif::standard_estimators()));
+  const worlds::LoadResult loaded = worlds::load_world(SEIFBED_SOURCE_DIR "/worlds/" + name + ".yaml",
+                                                       overrides, estimator_schemas(test::test_registry()));
   EXPECT_TRUE(loaded.problems.empty());
   return loaded.world.value();
 }
