@@ -12,7 +12,7 @@ namespace {
 
 TEST(LiveLoop, AllocatesNothingFromTheThirdRoundOn) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   worlds::World world = test::small_world();  // a round takes about 40 s
   world.duration = 240.0;
   world.scoring.interval = 1e6;  // scoring is off the live path

@@ -13,7 +13,6 @@ namespace harness {
 namespace {
 
 using test::read_file;
-using test::TemporaryFolder;
 using test::write_file;
 
 struct Called {
