@@ -1,16 +1,12 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "harness/commands.hpp"
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
 #include "harness/estimator_schemas.hpp"
+#include "harness/prepared_run.hpp"
 #include "harness/run_folder.hpp"
-#include "harness/simulated_stream.hpp"
 #include "harness/version.hpp"
-#include "worlds/merge.hpp"
 
 namespace harness {
 
@@ -21,25 +17,8 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::string seed;                // checked as part of the world; empty: the file's
   std::optional<double> duration;  // [s]
-  std::string out;
-  bool json = false;
-  bool quiet = false;
+  OutputArguments output;
 };
-
-/// The commands' own file name in the run folder, where world.yaml finds it again.
-constexpr const char* commands_file = "commands.csv";
-
-/// Writes world.yaml, and beside it what it needs, so that it runs again from there.
-void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {
-  if (world.drive.mode == worlds::DriveMode::commands) {
-    std::filesystem::copy_file(world.drive.commands_file, folder / commands_file);
-    std::vector<worlds::Problem> problems;
-    std::optional<worlds::Node> document = worlds::parse_document(resolved, "world.yaml", problems);
-    worlds::apply_override(*document, fmt::format("drive.file={}", commands_file), problems);
-    resolved = worlds::emit(*document);
-  }
-  write_whole_file(folder / "world.yaml", resolved);
-}
 
 int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   std::vector<std::string> overrides = arguments.overrides;
@@ -52,22 +31,10 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
     return 2;
   }
   const worlds::World& world = *loaded.world;
-
-  Believers believers;
-  SimulatedStream stream(world, steering_pose(world.drive.pose_from, believers));
-  believers.estimators = make_estimators(registry, world.estimators, stream.description(), world.seed);
-  RunPlan plan;
-  plan.folder = arguments.out.empty()
-                    ? create_run_folder("runs", fmt::format("{}-{}", file_name_of(world.name), world.seed))
-                    : create_empty_folder(arguments.out);
-  plan.name = world.name;
-  plan.seed = world.seed;
-  plan.scoring = world.scoring;
-  plan.end_t = world.duration;
-  plan.quiet = arguments.quiet || arguments.json;
-  write_world(plan.folder, world, loaded.resolved);
-  return print_result(execute(stream, stream.description(), believers, plan), plan.folder, arguments.json,
-                      arguments.quiet);
+  PreparedRun run = prepare_run(world, registry);
+  open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
+  write_world(run.plan.folder, world, loaded.resolved);
+  return print_result(execute(run), run.plan.folder, arguments.output);
 }
 
 }  // namespace
@@ -87,10 +54,7 @@ void add_run(CommandLine line) {
       ->allow_extra_args(false);
   command->add_option("--seed", arguments->seed, "Seed of everything that is random")->type_name("INT");
   command->add_option("--duration", arguments->duration, "Simulated time [s]");
-  command->add_option("--out", arguments->out,
-                      "Folder to write to; by default a new one, runs/<world>-<seed>");
-  command->add_flag("--json", arguments->json, "Print summary.json instead of the scoreboard");
-  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  add_output_options(*command, arguments->output, "runs/<world>-<seed>");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] { return run_world(*arguments, registry); });
   });

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "harness/csv_reader.hpp"
+#include "harness/run_folder.hpp"
 #include "harness/scoreboard.hpp"
 
 namespace harness {
@@ -27,18 +28,34 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
-int print_result(const RunResult& result, const std::filesystem::path& folder, bool json, bool quiet) {
+void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder) {
+  command.add_option("--out", output.out, "Folder to write to; by default a new one, " + folder);
+  command.add_flag("--json", output.json, "Print summary.json instead of the scoreboard");
+  command.add_flag("--quiet", output.quiet, "Print errors only");
+}
+
+void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name) {
+  run.plan.folder = output.out.empty() ? create_run_folder("runs", name) : create_empty_folder(output.out);
+  run.plan.quiet = output.quiet || output.json;
+}
+
+int print_result(const RunResult& result, const std::filesystem::path& folder,
+                 const OutputArguments& output) {
   if (!result.error.empty()) fmt::print(stderr, "{}\n", result.error);
-  if (json) {
-    fmt::print("{}", to_json(result.summary));
-  } else if (!quiet) {
-    fmt::print("{}\nWritten to {}\n", scoreboard(result.summary), folder.string());
+  std::string text;
+  if (output.json) {
+    text = to_json(result.summary);
+  } else if (!output.quiet) {
+    text = fmt::format("{}\nWritten to {}\n", scoreboard(result.summary), folder.string());
   }
-  if (std::fflush(stdout) != 0) {
-    fmt::print(stderr, "seifbed: cannot write to the standard output\n");
-    return 1;
-  }
-  return exit_code(result);
+  return print_all(text, exit_code(result));
+}
+
+int print_all(const std::string& text, int exit_code) {
+  fmt::print("{}", text);
+  if (std::fflush(stdout) == 0) return exit_code;
+  fmt::print(stderr, "seifbed: cannot write to the standard output\n");
+  return 1;
 }
 
 }  // namespace harness

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run.hpp"
+#include "harness/prepared_run.hpp"
 #include "seif/registry.hpp"
 #include "worlds/load.hpp"
 
@@ -23,6 +23,7 @@ struct CommandLine {
 
 void add_run(CommandLine line);
 void add_replay(CommandLine line);
+void add_compare(CommandLine line);
 void add_validate(CommandLine line);
 void add_schema(CommandLine line);
 void add_estimators(CommandLine line);
@@ -33,7 +34,23 @@ void print_problems(std::vector<worlds::Problem> problems);
 /// Runs a command; what it throws is printed, and becomes an exit code.
 int guarded(const std::function<int()>& command);
 
+/// Where a run goes, and what is printed of it.
+struct OutputArguments {
+  std::string out;  // a folder; empty: a new one in runs/
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `folder` is what --out is by default, for the help.
+void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder);
+
+/// Makes the folder of a run, by default runs/`name`, and puts it into the plan.
+void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name);
+
 /// Tells how a run ended: its error, and the summary as JSON or as a scoreboard. The exit code.
-int print_result(const RunResult& result, const std::filesystem::path& folder, bool json, bool quiet);
+int print_result(const RunResult& result, const std::filesystem::path& folder, const OutputArguments& output);
+
+/// Prints to stdout. The exit code is kept, unless that cannot be written.
+int print_all(const std::string& text, int exit_code);
 
 }  // namespace harness

@@ -1,6 +1,7 @@
 #include "harness/interrupt.hpp"
 
 #include <csignal>
+#include <mutex>
 
 namespace harness {
 
@@ -8,6 +9,9 @@ namespace {
 
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+std::mutex guards_mutex;
+int guards = 0;  // [-] that live
 
 extern "C" void note_interrupt(int) { interrupted = true; }
 
@@ -21,12 +25,16 @@ void handle(int signal, void (*handler)(int)) {
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
+  const std::lock_guard lock(guards_mutex);
+  if (guards++ > 0) return;
   interrupted = false;
   handle(SIGINT, note_interrupt);
   handle(SIGTERM, note_interrupt);
 }
 
 InterruptGuard::~InterruptGuard() {
+  const std::lock_guard lock(guards_mutex);
+  if (--guards > 0) return;
   handle(SIGINT, SIG_DFL);
   handle(SIGTERM, SIG_DFL);
 }

@@ -5,7 +5,8 @@
 
 namespace harness {
 
-/// While it lives, SIGINT and SIGTERM set a flag. A second signal ends the program at once. One at a time.
+/// While any lives, SIGINT and SIGTERM set a flag. A second signal ends the program at once. Several may live
+/// at once, in any thread, and share the flag.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -13,7 +14,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether a signal came since the last guard was made.
+  /// Whether a signal came since there is a guard.
   static const std::atomic<bool>& flag();
 };
 

@@ -6,12 +6,11 @@
 #include <string>
 
 #include "harness/commands.hpp"
+#include "harness/registry.hpp"
 #include "harness/version.hpp"
-#include "seif/registry.hpp"
 
 int main(int argc, char** argv) {
-  // An estimator of your own joins here: registry.add(...) makes it known to world files and to all commands.
-  const seif::Registry registry = seif::standard_estimators();
+  const seif::Registry registry = harness::known_estimators();
 
   CLI::App app("A robot testbed: worlds are simulated, estimators run live in them and are scored.",
                "seifbed");
@@ -22,6 +21,7 @@ int main(int argc, char** argv) {
   const harness::CommandLine line{app, registry, exit_code};
   harness::add_run(line);
   harness::add_replay(line);
+  harness::add_compare(line);
   harness::add_validate(line);
   harness::add_schema(line);
   harness::add_estimators(line);

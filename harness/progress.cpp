@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <string>
 
 namespace harness {
 
@@ -15,26 +14,50 @@ constexpr const char* clear_line = "\r\033[K";
 
 }  // namespace
 
-Progress::Progress(bool quiet, double start_t, std::optional<double> end_t)
-    : is_shown_(!quiet && isatty(STDERR_FILENO) == 1), start_t_(start_t), end_t_(end_t) {}
+StatusLine::StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress() {
+StatusLine::~StatusLine() {
   if (is_shown_) fmt::print(stderr, "{}", clear_line);
 }
 
-void Progress::show(double t) {
-  if (!is_shown_) return;
+bool StatusLine::is_due() {
+  if (!is_shown_) return false;
   const Clock::time_point now = Clock::now();
-  if (now - last_ < pause) return;
+  if (now - last_ < pause) return false;
   last_ = now;
-  const double elapsed = std::chrono::duration<double>(now - begin_).count();
-  const double factor = (t - start_t_) / elapsed;
+  return true;
+}
+
+void StatusLine::show(const std::string& line) {
+  fmt::print(stderr, "{}{}", clear_line, line);
+  std::fflush(stderr);
+}
+
+double StatusLine::elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+Progress::Progress(bool quiet, double start_t, std::optional<double> end_t)
+    : line_(quiet), start_t_(start_t), end_t_(end_t) {}
+
+void Progress::show(double t) {
+  if (!line_.is_due()) return;
+  const double factor = (t - start_t_) / line_.elapsed();
   std::string line = fmt::format("{:.1f} s", t - start_t_);
   if (end_t_) line += fmt::format(" of {:.1f} s", *end_t_ - start_t_);
   line += fmt::format(", {:.1f} times real time", factor);
   if (end_t_ && factor > 0.0) line += fmt::format(", {:.0f} s left", (*end_t_ - t) / factor);
-  fmt::print(stderr, "{}{}", clear_line, line);
-  std::fflush(stderr);
+  line_.show(line);
+}
+
+RunsProgress::RunsProgress(bool quiet, std::size_t runs) : line_(quiet), runs_(runs) {}
+
+void RunsProgress::show(std::size_t done) {
+  if (!line_.is_due()) return;
+  std::string line = fmt::format("{} of {} runs", done, runs_);
+  if (done > 0) {
+    const double each = line_.elapsed() / static_cast<double>(done);
+    line += fmt::format(", {:.0f} s left", each * static_cast<double>(runs_ - done));
+  }
+  line_.show(line);
 }
 
 }  // namespace harness

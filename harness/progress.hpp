@@ -1,30 +1,57 @@
-// How far a run is, on a terminal.
+// How far a run is, or many are, on a terminal.
 #pragma once
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace harness {
 
-/// Rewrites one line of stderr now and then, if that is a terminal.
-class Progress {
+/// One line of stderr that is rewritten now and then, if that is a terminal.
+class StatusLine {
  public:
-  /// `end_t` [s]: where the run ends, if that is known.
-  Progress(bool quiet, double start_t, std::optional<double> end_t);
-  ~Progress();  // clears the line
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit StatusLine(bool quiet);
+  ~StatusLine();  // clears the line
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
 
-  void show(double t);
+  /// Whether it is time to show something new.
+  bool is_due();
+  void show(const std::string& line);
+  double elapsed() const;  // [s] since it was made
 
  private:
   using Clock = std::chrono::steady_clock;
 
   bool is_shown_;
-  double start_t_;
-  std::optional<double> end_t_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point last_ = begin_;
+};
+
+/// Of one run.
+class Progress {
+ public:
+  /// `end_t` [s]: where the run ends, if that is known.
+  Progress(bool quiet, double start_t, std::optional<double> end_t);
+
+  void show(double t);
+
+ private:
+  StatusLine line_;
+  double start_t_;
+  std::optional<double> end_t_;
+};
+
+/// Of many runs.
+class RunsProgress {
+ public:
+  RunsProgress(bool quiet, std::size_t runs);
+
+  void show(std::size_t done);
+
+ private:
+  StatusLine line_;
+  std::size_t runs_;  // [-]
 };
 
 }  // namespace harness

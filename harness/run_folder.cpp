@@ -1,6 +1,7 @@
 #include "harness/run_folder.hpp"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -77,6 +78,18 @@ std::filesystem::path create_empty_folder(const std::filesystem::path& folder) {
   if (!is_empty)
     throw BadInput(fmt::format("{}: is not empty; a run never writes over another", folder.string()));
   return folder;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "seifbed_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr)
+    throw std::system_error(errno, std::generic_category(), fmt::format("cannot create {}", pattern));
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 std::string trajectory_hash(const std::filesystem::path& folder) {

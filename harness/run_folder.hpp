@@ -18,6 +18,21 @@ std::filesystem::path create_run_folder(const std::filesystem::path& parent, con
 /// Creates this very folder, or takes it if it is there and empty; otherwise throws BadInput.
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 
+/// A folder of its own where the system keeps such, that goes with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();  // throws std::system_error
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// 16 hex digits over the names and bytes of what a run saw and estimated: truth.csv, odometry.csv,
 /// observations.csv, all *.tum and all *_map.csv, in the order of their names (FNV-1a, 64 bits). Equal for a
 /// run and its repetition or replay. Throws std::system_error if a file cannot be read.

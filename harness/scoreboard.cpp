@@ -2,23 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <numbers>
+
+#include "harness/text_table.hpp"
 
 namespace harness {
 
 namespace {
 
-using Row = std::vector<std::string>;
-
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-std::string number(const std::optional<double>& value, int decimals, double scale = 1.0) {
-  if (!value) return "-";
-  const double scaled = *value * scale;
-  // What does not fit into a column is told by its magnitude.
-  return scaled < 1e6 ? fmt::format("{:.{}f}", scaled, decimals) : fmt::format("{:.1e}", scaled);
+std::string number(std::optional<double> value, int decimals, double scale = 1.0) {
+  if (value) *value *= scale;
+  return number_cell(value, decimals);
 }
 
 template <class Integer>
@@ -34,22 +30,7 @@ std::optional<double> part(const std::optional<Percentiles>& values, double Perc
   return values ? std::optional((*values).*which) : std::nullopt;
 }
 
-/// Columns as wide as they need, the first to the left and the others to the right.
-std::string table(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    text += fmt::format("{:<{}}", row.front(), widths.front());
-    for (std::size_t i = 1; i < row.size(); ++i) text += fmt::format("  {:>{}}", row[i], widths[i]);
-    text += '\n';
-  }
-  return text;
-}
-
-Row accuracy_row(const EstimatorScore& score) {
+TextRow accuracy_row(const EstimatorScore& score) {
   return {score.name,
           count(score.landmarks_mapped),
           number(score.landmarks.rmse, 3),
@@ -61,7 +42,7 @@ Row accuracy_row(const EstimatorScore& score) {
           number(score.nees_landmark, 2)};
 }
 
-Row cost_row(const EstimatorScore& score) {
+TextRow cost_row(const EstimatorScore& score) {
   return {score.name,
           number(part(score.update_us, &Percentiles::p50), 1),
           number(part(score.update_us, &Percentiles::p95), 1),
@@ -77,10 +58,10 @@ Row cost_row(const EstimatorScore& score) {
 }  // namespace
 
 std::string scoreboard(const Summary& summary) {
-  std::vector<Row> accuracy = {{"estimator", "landmarks", "map RMSE [m]", "aligned [m]", "ATE [m]", "RPE [m]",
-                                "RPE [deg]", "NEES pose", "NEES map"}};
-  std::vector<Row> cost = {{"update", "p50 [us]", "p95 [us]", "p99 [us]", "max [us]", "blocks p50",
-                            "blocks max", "links", "active", "memory [KiB]"}};
+  std::vector<TextRow> accuracy = {{"estimator", "landmarks", "map RMSE [m]", "aligned [m]", "ATE [m]",
+                                    "RPE [m]", "RPE [deg]", "NEES pose", "NEES map"}};
+  std::vector<TextRow> cost = {{"update", "p50 [us]", "p95 [us]", "p99 [us]", "max [us]", "blocks p50",
+                                "blocks max", "links", "active", "memory [KiB]"}};
   for (const EstimatorScore& score : summary.score.estimators) {
     accuracy.push_back(accuracy_row(score));
     cost.push_back(cost_row(score));
@@ -89,8 +70,8 @@ std::string scoreboard(const Summary& summary) {
   std::string text = fmt::format("{}, seed {}: {:.1f} s, {} updates, {:.1f} times real time{}\n\n",
                                  summary.world, summary.seed, summary.duration, summary.updates,
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
-  text += table(accuracy);
-  if (cost.size() > 1) text += '\n' + table(cost);
+  text += text_table(accuracy);
+  if (cost.size() > 1) text += '\n' + text_table(cost);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

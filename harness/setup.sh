@@ -16,6 +16,8 @@ packages=(
   "libyaml-cpp-dev       reads world files"
   "libfmt-dev            formats text"
   "libcli11-dev          reads the command line"
+  "libboost-dev          quantiles of Student's distribution"
+  "libceres-dev          solves for the optimum of a run"
   "nlohmann-json3-dev    writes summaries and schemas"
   "libgtest-dev          tests"
   "libbenchmark-dev      benchmarks"

@@ -83,17 +83,9 @@ std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
   const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(state.full_Omega());
   if (!Sigma) return std::nullopt;
-  MarginalCovariances marginals;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) marginals.pose(i, j) = (*Sigma)(i, j);
-  }
-  for (const LandmarkId landmark : landmarks) {
-    const int row = InformationState::row_of(state.find(landmark).value());
-    Eigen::Matrix2d covariance;
-    covariance << (*Sigma)(row, row), (*Sigma)(row, row + 1), (*Sigma)(row + 1, row),
-        (*Sigma)(row + 1, row + 1);
-    marginals.landmarks.push_back(covariance);
-  }
+  MarginalCovariances marginals{.pose = Sigma->block<3>(0), .landmarks = {}};
+  for (const LandmarkId landmark : landmarks)
+    marginals.landmarks.push_back(Sigma->block<2>(InformationState::row_of(state.find(landmark).value())));
   return marginals;
 }
 

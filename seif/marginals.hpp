@@ -21,6 +21,16 @@ class DiagonalBlocksOfInverse {
   /// (A^-1)_ij. The entry A_ij must be stored, zero or not.
   double operator()(int i, int j) const;
 
+  /// The block of A^-1 on the diagonal whose first row is `row`.
+  template <int size>
+  Eigen::Matrix<double, size, size> block(int row) const {
+    Eigen::Matrix<double, size, size> block;
+    for (int i = 0; i < size; ++i) {
+      for (int j = 0; j < size; ++j) block(i, j) = (*this)(row + i, row + j);
+    }
+    return block;
+  }
+
  private:
   Eigen::SparseMatrix<double> Z_;  // lower triangle, permuted
   Eigen::VectorXi permuted_;       // where row i of A went

@@ -20,7 +20,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, LiveLoopIn,
 
 TEST_P(LiveLoopIn, AllocatesNothingFromTheThirdRoundOn) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   worlds::World world = test::small_world();  // a round takes about 40 s
   world.physics.engine = GetParam();
   world.duration = 240.0;

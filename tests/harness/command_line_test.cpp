@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "fixtures.hpp"
+#include "harness/registry.hpp"
 
 namespace harness {
 namespace {
 
 using test::read_file;
-using test::TemporaryFolder;
 using test::write_file;
 
 struct Called {
@@ -21,10 +21,11 @@ struct Called {
   std::string errors;
 };
 
-/// Calls the program inside a folder.
-Called call(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && '" SEIFBED_PROGRAM "' " + arguments + " 2>errors";
+/// Calls the program inside a folder, with variables of the environment such as "A=1 B=2".
+Called call(const TemporaryFolder& folder, const std::string& arguments,
+            const std::string& environment = "") {
+  const std::string command = "cd '" + folder.path().string() + "' && " + environment +
+                              " '" SEIFBED_PROGRAM "' " + arguments + " 2>errors";
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot call the program");
   Called called;
@@ -93,6 +94,62 @@ TEST(CommandLine, ALogWithoutWorldRunsTheBaselineAndTheReportsFilter) {
   EXPECT_TRUE(estimators.contains("ekf") && estimators.contains("seif_report"));
 }
 
+/// Without what was measured with a clock.
+nlohmann::json without_times(nlohmann::json json) {
+  if (json.is_object()) {
+    for (const char* key : {"update_us", "stage_us", "update_p50_us", "update_p99_us", "realtime_factor"})
+      json.erase(key);
+  }
+  if (json.is_structured()) {
+    for (nlohmann::json& part : json) part = without_times(part);
+  }
+  return json;
+}
+
+nlohmann::json compare(const TemporaryFolder& folder, const std::string& arguments) {
+  const Called called = call(folder, "compare " + arguments + " --json");
+  EXPECT_EQ(called.exit_code, 0) << called.errors;
+  EXPECT_EQ(called.errors, "");
+  return without_times(nlohmann::json::parse(called.output));
+}
+
+TEST(CommandLine, AComparisonIsTheSameWithOneJobAndWithMany) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::string arguments = "world.yaml --seeds 2..4,6 --baseline batch";
+  const nlohmann::json one = compare(folder, arguments + " --jobs 1");
+  EXPECT_EQ(compare(folder, arguments + " --jobs 3"), one);
+  EXPECT_EQ(one["runs"].size(), 4U);
+  EXPECT_EQ(one["runs"][3]["name"], "small-6");
+  EXPECT_EQ(one["baseline"], "batch");
+  EXPECT_EQ(one["estimators"].size(), 3U) << "the baseline joins the world's own";
+  EXPECT_EQ(one["estimators"]["batch"]["landmark_mse_ratio"]["value"], 1.0);
+}
+
+TEST(CommandLine, AComparisonKeepsRunsThatReplayToTheSame) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const nlohmann::json live = compare(folder, "world.yaml --seeds 1,2 --keep kept");
+  EXPECT_EQ(live["runs"][0]["summary"]["trajectory_hash"],
+            hash_of(call(folder, "run world.yaml --seed 1 --json").output));
+  EXPECT_EQ(compare(folder, "kept/small-1 kept/small-2")["estimators"], live["estimators"]);
+  const nlohmann::json ekf = compare(folder, "kept/small-1 kept/small-2 --estimators ekf")["estimators"];
+  EXPECT_EQ(ekf.size(), 1U);
+  EXPECT_EQ(ekf["ekf"]["nees_pose_final"], live["estimators"]["ekf"]["nees_pose_final"]);
+}
+
+TEST(CommandLine, AComparisonLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  std::filesystem::create_directories(folder / "temporary");
+  const Called called =
+      call(folder, "compare world.yaml --seeds 1..2 --set duration_s=2", "TMPDIR=$PWD/temporary");
+  EXPECT_EQ(called.exit_code, 0) << called.errors;
+  EXPECT_NE(called.output.find("small, 2 runs"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "temporary"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
+}
+
 TEST(CommandLine, QuietPrintsNothing) {
   const TemporaryFolder folder;
   write_world(folder);
@@ -136,11 +193,22 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCall{"run world.yaml --set drive.pose_from=nobody", "nobody"},
                     BadCall{"validate nothing.yaml", "nothing.yaml"},
                     BadCall{"replay nothing", "no such folder"},
-                    BadCall{"replay full", "odometry.csv: cannot be read"}));
+                    BadCall{"replay full", "odometry.csv: cannot be read"},
+                    BadCall{"compare nothing.yaml", "nothing.yaml"},
+                    BadCall{"compare world.yaml --seeds 1..x", "'x' is no seed"},
+                    BadCall{"compare world.yaml --seeds 5..1", "5..1 is no range"},
+                    BadCall{"compare world.yaml --seeds 1,", "'' is no seed"},
+                    BadCall{"compare world.yaml --baseline nobody", "no estimator 'nobody'"},
+                    BadCall{"compare world.yaml --estimators ekf", "--estimators is for logs"},
+                    BadCall{"compare world.yaml --jobs 0", "--jobs"},
+                    BadCall{"compare world.yaml --keep full", "not empty"},
+                    BadCall{"compare world.yaml world.yaml", "one world file, or log folders"},
+                    BadCall{"compare full --seeds 1..2", "--seeds is for worlds"},
+                    BadCall{"compare full", "odometry.csv: cannot be read"}));
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
   const TemporaryFolder folder;
-  for (const std::string command : {"run", "replay", "validate", "schema", "estimators"}) {
+  for (const std::string command : {"run", "replay", "compare", "validate", "schema", "estimators"}) {
     const Called help = call(folder, command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;
@@ -152,7 +220,7 @@ TEST(CommandLine, SchemaIsJsonAndEstimatorsAreListed) {
   const TemporaryFolder folder;
   EXPECT_TRUE(nlohmann::json::parse(call(folder, "schema").output).is_object());
   const std::string list = call(folder, "estimators").output;
-  const seif::Registry registry = seif::standard_estimators();
+  const seif::Registry registry = known_estimators();
   for (const seif::EstimatorType& type : registry.types())
     EXPECT_NE(list.find(type.name + "\n"), std::string::npos);
 }

@@ -13,7 +13,6 @@
 namespace harness {
 namespace {
 
-using test::TemporaryFolder;
 using test::write_file;
 
 TEST(Csv, NumbersComeBackBitForBit) {

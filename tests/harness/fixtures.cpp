@@ -1,13 +1,11 @@
 #include "fixtures.hpp"
 
-#include <stdlib.h>
-
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/log_stream.hpp"
-#include "harness/simulated_stream.hpp"
+#include "harness/prepared_run.hpp"
+#include "harness/registry.hpp"
 
 namespace harness::test {
 
@@ -39,18 +37,14 @@ class DeadReckoning final : public seif::Estimator {
   std::int64_t scans_left_;
 };
 
+RunResult run_in(const std::filesystem::path& folder, PreparedRun run) {
+  std::filesystem::create_directories(folder);
+  run.plan.folder = folder;
+  run.plan.quiet = true;
+  return execute(run);
+}
+
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "seifbed_test_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -64,7 +58,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 seif::Registry test_registry() {
-  seif::Registry registry = seif::standard_estimators();
+  seif::Registry registry = known_estimators();
   seif::EstimatorType type;
   type.name = "dead_reckoning";
   type.help = "Odometry alone.";
@@ -105,22 +99,12 @@ worlds::World small_world() {
 }
 
 RunResult run_live(const worlds::World& world, const std::filesystem::path& folder) {
-  Believers believers;
-  SimulatedStream stream(world, steering_pose(world.drive.pose_from, believers));
-  believers.estimators = make_estimators(test_registry(), world.estimators, stream.description(), world.seed);
-  std::filesystem::create_directories(folder);
-  const RunPlan plan{folder, world.name, world.seed, world.scoring, world.duration, true};
-  return execute(stream, stream.description(), believers, plan);
+  return run_in(folder, prepare_run(world, test_registry()));
 }
 
 RunResult replay(const worlds::World& world, const std::filesystem::path& from,
                  const std::filesystem::path& to) {
-  LogStream stream(from);
-  Believers believers;
-  believers.estimators = make_estimators(test_registry(), world.estimators, stream.description(), world.seed);
-  std::filesystem::create_directories(to);
-  const RunPlan plan{to, stream.description().name, world.seed, world.scoring, std::nullopt, true};
-  return execute(stream, stream.description(), believers, plan);
+  return run_in(to, prepare_replay(from, world, test_registry()));
 }
 
 }  // namespace harness::test

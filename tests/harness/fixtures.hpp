@@ -1,4 +1,4 @@
-// Worlds, folders and an estimator for the tests of the harness.
+// Worlds, files and an estimator for the tests of the harness.
 #pragma once
 
 #include <filesystem>
@@ -7,25 +7,11 @@
 
 #include "harness/live_loop.hpp"
 #include "harness/run.hpp"
+#include "harness/run_folder.hpp"
 #include "seif/registry.hpp"
 #include "worlds/world.hpp"
 
 namespace harness::test {
-
-/// A folder of its own that goes when the test ends.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& text);
@@ -41,7 +27,7 @@ RunResult run_live(const worlds::World& world, const std::filesystem::path& fold
 RunResult replay(const worlds::World& world, const std::filesystem::path& from,
                  const std::filesystem::path& to);
 
-/// The estimators of the library, and `dead_reckoning`, whose map stays empty and which throws after
+/// The estimators of the program, and `dead_reckoning`, whose map stays empty and which throws after
 /// `fail_after_scans` if that is not zero.
 seif::Registry test_registry();
 

@@ -13,9 +13,8 @@ namespace harness {
 namespace {
 
 worlds::World gallery_world(const std::string& name, std::vector<std::string> overrides) {
-  const worlds::LoadResult loaded =
-      worlds::load_world(SEIFBED_SOURCE_DIR "/worlds/" + name + ".yaml", overrides,
-                         estimator_schemas(seif::standard_estimators()));
+  const worlds::LoadResult loaded = worlds::load_world(SEIFBED_SOURCE_DIR "/worlds/" + name + ".yaml",
+                                                       overrides, estimator_schemas(test::test_registry()));
   EXPECT_TRUE(loaded.problems.empty());
   return loaded.world.value();
 }
@@ -30,7 +29,7 @@ std::vector<MeanNees> final_nees(const std::string& world_name, const std::vecto
                                  int seeds) {
   std::vector<MeanNees> means;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     worlds::World world = gallery_world(world_name, overrides);
     world.seed = static_cast<std::uint64_t>(seed);
     const RunResult result = test::run_live(world, folder / "run");
@@ -98,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(All, GalleryWorld,
                          [](const auto& world) { return std::string(world.param); });
 
 TEST_P(GalleryWorld, RunsAndSeesLandmarks) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const RunResult result = test::run_live(gallery_world(GetParam(), {"duration_s=10"}), folder / "run");
   EXPECT_EQ(exit_code(result), 0) << result.error;
   ASSERT_FALSE(result.summary.score.estimators.empty());

@@ -9,7 +9,6 @@
 namespace harness {
 namespace {
 
-using test::TemporaryFolder;
 using test::write_file;
 
 constexpr double pi = std::numbers::pi;

@@ -8,7 +8,6 @@
 namespace harness {
 namespace {
 
-using test::TemporaryFolder;
 using test::write_file;
 
 TEST(RunFolder, IsNeverUsedTwice) {

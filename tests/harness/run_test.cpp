@@ -20,7 +20,6 @@ using test::read_file;
 using test::replay;
 using test::run_live;
 using test::small_world;
-using test::TemporaryFolder;
 
 std::string first_line(const std::filesystem::path& file) {
   const std::string text = read_file(file);

@@ -45,7 +45,8 @@ const std::vector<Room>& all_rooms() {
        {"harness/", "sim/", "sensors/", "seif/", "worlds/"},
        false,
        {"seif", "worlds", "sensors", "sim", "render", "harness", "Eigen3::Eigen"},
-       {"fmt::fmt", "nlohmann_json::nlohmann_json", "CLI11::CLI11", "seifbed_flags"}},
+       {"Boost::headers", "Ceres::ceres", "fmt::fmt", "nlohmann_json::nlohmann_json", "CLI11::CLI11",
+        "seifbed_flags"}},
   };
   return rooms;
 }
@@ -74,9 +75,9 @@ bool is_upper(std::string_view word, std::size_t at) {
   return at < word.size() && std::isupper(static_cast<unsigned char>(word[at])) != 0;
 }
 
-const std::array<Library, 5>& libraries() {
+const std::array<Library, 7>& libraries() {
   using View = std::string_view;
-  static constexpr std::array<Library, 5> all = {{
+  static constexpr std::array<Library, 7> all = {{
       {"Bullet",
        [](View include) {
          return include.starts_with("bt") || include.starts_with("Bullet") ||
@@ -95,6 +96,12 @@ const std::array<Library, 5>& libraries() {
        [](View path) { return is_inside(path, "worlds") && !is_header(path); }},
       {"nlohmann-json", [](View include) { return include.starts_with("nlohmann/"); },
        [](View word) { return word == "nlohmann"; }, [](View path) { return !is_header(path); }},
+      {"Boost", [](View include) { return include.starts_with("boost/"); },
+       [](View word) { return word == "boost"; },
+       [](View path) { return is_inside(path, "harness") && !is_header(path); }},
+      {"Ceres", [](View include) { return include.starts_with("ceres/"); },
+       [](View word) { return word == "ceres"; },
+       [](View path) { return is_inside(path, "harness") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; }, [](View path) { return is_inside(path, "harness"); }},
   }};

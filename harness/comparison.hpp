@@ -1,0 +1,57 @@
+// Estimators compared over runs: each run feeds one stream to all of them, so their values come in pairs.
+// Definitions: docs/scores.md.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/run.hpp"
+#include "harness/statistics.hpp"
+
+namespace harness {
+
+/// One run of a comparison: a seed of a world, or a log.
+struct ComparedRun {
+  std::string name;  // "courtyard-1", or the log's
+  RunResult result;
+};
+
+/// An estimator over the runs that it finished. What no run has is nothing.
+struct EstimatorComparison {
+  std::string name;
+  int runs = 0;                                  // [-] finished
+  int failed = 0;                                // [-] in which it, or the run as a whole, failed
+  std::optional<Estimate> landmark_mse;          // [m^2]
+  std::optional<Estimate> landmark_mse_ratio;    // [-] over the baseline's
+  std::optional<Estimate> landmark_aligned;      // [m] RMSE
+  std::optional<Estimate> aligned_ratio;         // [-] mean over the runs of the ratio to the baseline's
+  std::optional<double> aligned_ratio_median;    // [-]
+  std::optional<Estimate> nees_pose;             // [-] at the end
+  std::optional<Estimate> nees_landmark;         // [-] at the end
+  std::optional<Estimate> links;                 // [-] at the end
+  std::optional<double> links_max;               // [-] in any run
+  std::optional<double> relocations_per_update;  // [-] nothing if there were none
+  std::optional<double> update_p50_us;           // [us] mean over the runs
+  std::optional<double> update_p99_us;           // [us] mean over the runs
+};
+
+struct Comparison {
+  std::string name;      // of the world, or of the logs
+  std::string baseline;  // the estimator to which ratios are taken
+  bool interrupted = false;
+  std::vector<ComparedRun> runs;                // that came to an end
+  std::vector<EstimatorComparison> estimators;  // in the order in which the runs have them
+};
+
+/// Fills in `estimators` from `runs`.
+void compare_estimators(Comparison& comparison);
+
+/// The whole comparison with every run's summary.
+std::string to_json(const Comparison& comparison);
+
+/// As tables for people; what failed stands below.
+std::string comparison_board(const Comparison& comparison);
+
+}  // namespace harness

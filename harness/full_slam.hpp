@@ -1,0 +1,54 @@
+// The full SLAM problem of a recorded stream, every pose and every landmark at once, and its least-squares
+// optimum.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "seif/types.hpp"
+
+namespace harness {
+
+/// A landmark as it was seen from a pose. Both are given by their numbers, from 0.
+struct Sighting {
+  int pose = 0;
+  int landmark = 0;
+  seif::Pose2 T_pose_sensor;
+  seif::Observation observation;
+};
+
+/// What there is to fit. Terms are weighted by the covariances that come with them.
+struct FullSlam {
+  seif::PoseEstimate start;             // of pose 0
+  std::vector<seif::Odometry> motions;  // from pose i to pose i + 1
+  std::vector<Sighting> sightings;      // in the order of their poses
+  int landmark_count = 0;
+
+  int pose_count() const { return static_cast<int>(motions.size()) + 1; }
+  int row_of_pose(int pose) const { return 3 * pose; }
+  int row_of_landmark(int landmark) const { return 3 * pose_count() + 2 * landmark; }
+};
+
+struct FullSlamOptimum {
+  std::vector<seif::Pose2> poses;          // T_world_robot
+  std::vector<Eigen::Vector2d> landmarks;  // p_world_landmark [m]
+  Eigen::SparseMatrix<double> Omega;       // J' J there, lower triangle; rows: the poses, then the landmarks
+};
+
+/// Two motions in a row as one, its covariance to first order.
+seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second);
+
+/// Whether a motion is so certain that what was seen after it may count as seen from where it began.
+bool is_certain(const seif::Odometry& motion);
+
+/// The poses for a map that is taken as known: an extended Kalman filter of the pose alone.
+std::vector<seif::Pose2> poses_on_map(const FullSlam& slam, std::span<const Eigen::Vector2d> landmarks);
+
+/// Minimises the sum of squared residuals from a first guess. Throws std::runtime_error if that does not
+/// converge.
+FullSlamOptimum optimum(const FullSlam& slam, std::span<const seif::Pose2> poses,
+                        std::span<const Eigen::Vector2d> landmarks);
+
+}  // namespace harness

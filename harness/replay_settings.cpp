@@ -1,0 +1,80 @@
+#include "harness/replay_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "harness/csv_reader.hpp"
+#include "harness/estimator_schemas.hpp"
+#include "worlds/describe.hpp"
+#include "worlds/merge.hpp"
+
+namespace harness {
+
+namespace {
+
+/// What a log of other origin is fed to, unless the command line says otherwise: the baseline, and the
+/// report's filter in constant time. Some of the other filters would take hours over a long log.
+constexpr const char* default_settings = "estimators: {ekf: {}, seif_report: {}}";
+
+/// The document of the run that wrote the log.
+std::optional<worlds::Node> read_settings(const std::filesystem::path& folder,
+                                          std::vector<worlds::Problem>& problems) {
+  if (std::filesystem::exists(folder / "world.yaml"))
+    return worlds::read_document(folder / "world.yaml", problems);
+  return worlds::parse_document(default_settings, "settings", problems);
+}
+
+void check_override(const std::string& assignment) {
+  if (assignment.starts_with("estimators.") || assignment.starts_with("scoring.") ||
+      assignment.starts_with("seed="))
+    return;
+  throw BadInput(fmt::format("--set {}: a replay can set estimators, scoring and seed; the rest is recorded",
+                             assignment));
+}
+
+/// Leaves the estimators that were asked for, in the order of the file; a registered type that is missing
+/// comes in with its defaults.
+void select_estimators(worlds::Node& document, const std::vector<std::string>& names,
+                       const seif::Registry& registry, std::vector<worlds::Problem>& problems) {
+  if (names.empty()) return;
+  for (const std::string& name : names) {
+    if (worlds::find_path(document, "estimators." + name) != nullptr) continue;
+    if (registry.find(name) == nullptr)
+      throw BadInput(fmt::format("--estimators: there is no estimator '{}'", name));
+    worlds::apply_override(document, fmt::format("estimators.{}={{}}", name), problems);
+  }
+  worlds::Node* estimators = document.find("estimators");
+  if (estimators == nullptr) return;
+  std::erase_if(estimators->entries, [&](const worlds::Node::Entry& entry) {
+    return std::ranges::find(names, entry.key) == names.end();
+  });
+}
+
+}  // namespace
+
+worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
+                                        const seif::Registry& registry) {
+  worlds::LoadResult result;
+  std::optional<worlds::Node> document = read_settings(log, result.problems);
+  worlds::WorldFile file;
+  if (document) {
+    for (const std::string& assignment : choices.overrides) {
+      check_override(assignment);
+      worlds::apply_override(*document, assignment, result.problems);
+    }
+    if (!choices.seed.empty()) worlds::apply_override(*document, "seed=" + choices.seed, result.problems);
+    select_estimators(*document, choices.estimators, registry, result.problems);
+    const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
+    worlds::read_fields(
+        *document, [&](worlds::Fields& fields) { worlds::describe_world(fields, file, schemas); },
+        result.problems);
+  }
+  if (!result.problems.empty()) return result;
+  result.world = std::move(file.world);
+  result.resolved = worlds::emit(*document);
+  return result;
+}
+
+}  // namespace harness

@@ -1,0 +1,34 @@
+// Means over runs, and how far they can be trusted. Definitions: docs/scores.md.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace harness {
+
+struct ConfidenceInterval {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A value from a sample, with its 95 % confidence interval where the sample gives one.
+struct Estimate {
+  double value = 0.0;
+  std::optional<ConfidenceInterval> interval;
+};
+
+/// The mean, with Student's interval; without one for a single value. Nothing for none.
+std::optional<Estimate> mean_of(std::span<const double> sample);
+
+/// The ratio of the means of two paired samples, with Fieller's interval (1954), which takes the pairs'
+/// correlation into account. Without interval for a single pair, or where the mean of the denominators is not
+/// significantly above zero: the interval is unbounded then. Nothing without pairs, or if that mean is zero.
+/// The spans are of equal length.
+std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
+                                       std::span<const double> denominators);
+
+/// The middle value, or the mean of the two in the middle. Nothing without values.
+std::optional<double> median_of(std::vector<double> sample);
+
+}  // namespace harness
