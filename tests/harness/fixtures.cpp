@@ -105,9 +105,14 @@ worlds::World small_world() {
 }
 
 RunResult run_live(const worlds::World& world, const std::filesystem::path& folder) {
+  return run_live(world, folder, test_registry());
+}
+
+RunResult run_live(const worlds::World& world, const std::filesystem::path& folder,
+                   const seif::Registry& registry) {
   Believers believers;
   SimulatedStream stream(world, steering_pose(world.drive.pose_from, believers));
-  believers.estimators = make_estimators(test_registry(), world.estimators, stream.description(), world.seed);
+  believers.estimators = make_estimators(registry, world.estimators, stream.description(), world.seed);
   std::filesystem::create_directories(folder);
   const RunPlan plan{folder, world.name, world.seed, world.scoring, world.duration, true};
   return execute(stream, stream.description(), believers, plan);
