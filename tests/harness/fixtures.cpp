@@ -99,7 +99,12 @@ worlds::World small_world() {
 }
 
 RunResult run_live(const worlds::World& world, const std::filesystem::path& folder) {
-  return run_in(folder, prepare_run(world, test_registry()));
+  return run_live(world, folder, test_registry());
+}
+
+RunResult run_live(const worlds::World& world, const std::filesystem::path& folder,
+                   const seif::Registry& registry) {
+  return run_in(folder, prepare_run(world, registry));
 }
 
 RunResult replay(const worlds::World& world, const std::filesystem::path& from,

@@ -20,8 +20,10 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 /// `seif_report`.
 worlds::World small_world();
 
-/// Runs it live in a new folder.
+/// Runs it live in a new folder, with the estimators of `registry` or, without one, of test_registry().
 RunResult run_live(const worlds::World& world, const std::filesystem::path& folder);
+RunResult run_live(const worlds::World& world, const std::filesystem::path& folder,
+                   const seif::Registry& registry);
 
 /// Feeds a folder to the world's estimators and writes to another folder.
 RunResult replay(const worlds::World& world, const std::filesystem::path& from,

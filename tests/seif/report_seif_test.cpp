@@ -16,12 +16,7 @@ namespace {
 
 using test::ignore;
 using test::RingDrive;
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool under_sanitizer = true;  // tens of times slower
-#else
-constexpr bool under_sanitizer = false;
-#endif
+using test::under_sanitizer;
 
 TEST(ReportSeif, BoundsTheActiveLandmarksByThetaX) {
   RingDrive drive(60, 1);

@@ -11,6 +11,12 @@ namespace seif::test {
 
 const inline StageDone ignore = [](Stage) {};
 
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool under_sanitizer = true;  // tens of times slower: long drives are cut short
+#else
+inline constexpr bool under_sanitizer = false;
+#endif
+
 /// A robot that drives round and round a ring of landmarks, 1.5 m apart on either side, and sees those within
 /// 4 m.
 class RingDrive {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dense_oracle.hpp"
+#include "driven_state.hpp"
 #include "seif/information_state.hpp"
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
@@ -20,43 +21,18 @@ namespace {
 
 using oracle::DenseBelief;
 using oracle::RandomDrive;
+using test::drive;
+using test::relative;
+using test::start;
+using test::T_robot_sensor;
 
 constexpr double rounding = 1e-10;  // relative, after some tens of updates of conditioned matrices
-
-const PoseEstimate start{.mean = {0.1, -0.2, 0.3},
-                         .covariance = Eigen::Vector3d(0.01, 0.02, 0.001).asDiagonal().toDenseMatrix()};
-const Pose2 T_robot_sensor{0.15, -0.05, 0.2};
-
-double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / b.norm(); }
 
 void expect_equal(const InformationState& state, const DenseBelief& belief) {
   const DenseBelief now = oracle::dense(state);
   EXPECT_LT(relative(now.H, belief.H), rounding);
   EXPECT_LT(relative(now.b, belief.b), rounding);
   EXPECT_LT(relative(now.mu, belief.mu), rounding);
-}
-
-/// Drives on with the report's filter: at most 5 active landmarks, and a mean that is never exact.
-void drive(InformationState& state, RandomDrive& random, int updates) {
-  std::vector<int> surplus;
-  Pose2 T_world_robot = state.pose();
-  for (int k = 0; k < updates; ++k) {
-    const Odometry u = random.odometry();
-    T_world_robot = T_world_robot * u.T_previous_current;
-    motion_update(state, u);
-    std::vector<Observation> scan;
-    for (int i = 0; i < 3; ++i) {
-      const auto landmark = static_cast<LandmarkId>(random.uniform(0, 20));
-      scan.push_back(random.observation(landmark, T_world_robot * T_robot_sensor,
-                                        {1.0 + landmark % 5 - 0.1 * landmark, -2.0 + 0.4 * landmark}));
-    }
-    measurement_update(state, scan, T_robot_sensor);
-    if (state.active_count() > 5) {
-      choose_to_drop(state, DropOrder::weakest_link, state.active_count() - 5, surplus);
-      ASSERT_TRUE(sparsify(state, SparsificationRule::report, surplus));
-    }
-    ASSERT_TRUE(coordinate_descent(state, 2, random.random));
-  }
 }
 
 class SeifSteps : public testing::TestWithParam<unsigned> {
@@ -86,37 +62,6 @@ TEST_P(SeifSteps, MotionUpdateIsExactWithoutNoise) {
   oracle::motion_update(belief, u);
   motion_update(state, u);
   expect_equal(state, belief);
-}
-
-TEST_P(SeifSteps, MotionUpdateLeavesTheResidualWhereTheRobotHasNone) {
-  ASSERT_TRUE(
-      coordinate_descent(state, 0, random.random));  // the report's (36), sign mended, holds if r_x = 0
-  const Eigen::VectorXd r = state.full_r();
-  ASSERT_LT(r.head<3>().norm(), 1e-9);
-  ASSERT_GT(r.norm(), 1e-3);
-  motion_update(state, random.odometry());
-  EXPECT_LT((state.full_r() - r).norm(), 1e-9);
-}
-
-TEST_P(SeifSteps, Equation36HasTheSignOfTheInformationVectorWrong) {
-  ASSERT_TRUE(solve_mean(state));  // r = 0: both sides speak of the same mean
-  const DenseBelief before = oracle::dense(state);
-  const Odometry u = random.odometry();
-  const PredictedPose predicted = predict_pose(state.pose(), u);
-  EXPECT_EQ((predicted.J_wrt_pose - Eigen::Matrix3d::Identity()).determinant(),
-            0.0);  // S_x' A S_x, which it inverts
-
-  Eigen::MatrixXd Psi = Eigen::MatrixXd::Identity(before.H.rows(), before.H.cols());
-  Psi.topLeftCorner<3, 3>() = predicted.J_wrt_pose.inverse();
-  const Eigen::MatrixXd H_prime = Psi.transpose() * before.H * Psi;
-  DenseBelief after = before;
-  oracle::motion_update(after, u);
-  const Eigen::MatrixXd dH = H_prime - after.H;
-  const Eigen::VectorXd moved_by_motion = after.H * (after.mu - before.mu);
-  const Eigen::VectorXd as_printed = before.b - (dH - before.H + H_prime) * before.mu + moved_by_motion;
-  const Eigen::VectorXd mended = before.b - (dH + before.H - H_prime) * before.mu + moved_by_motion;
-  EXPECT_LT(relative(mended, after.b), 1e-8);  // inverses
-  EXPECT_GT(relative(as_printed, after.b), 1e-3);
 }
 
 TEST_P(SeifSteps, MeasurementUpdateMatchesTheDenseFormAndActivates) {

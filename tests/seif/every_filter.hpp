@@ -1,0 +1,56 @@
+// The filters of the library by name: what tests are parameterised over that hold for all of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seif/registry.hpp"
+
+namespace seif::test {
+
+inline std::vector<std::string> every_filter() {
+  std::vector<std::string> names;
+  const Registry registry = standard_estimators();
+  for (const EstimatorType& type : registry.types()) names.push_back(type.name);
+  return names;
+}
+
+/// For INSTANTIATE_TEST_SUITE_P: the filter's name as the test's.
+inline std::string name_of(const testing::TestParamInfo<std::string>& filter) { return filter.param; }
+
+/// The filter with its defaults.
+inline std::unique_ptr<Estimator> make(const std::string& name, const EstimatorSetup& setup) {
+  const Registry registry = standard_estimators();
+  const EstimatorType* type = registry.find(name);
+  Options options;
+  for (const OptionSpec& spec : type->options) options[spec.key] = spec.fallback;
+  return type->make(setup, options);
+}
+
+/// The marginals of the pose and of the whole map. Fails the test, and returns nothing, if the belief is not
+/// a proper Gaussian: all finite, the covariances positive definite.
+inline std::optional<MarginalCovariances> proper_belief(const Estimator& filter) {
+  const Pose2 pose = filter.pose();
+  EXPECT_TRUE(Eigen::Vector3d(pose.x, pose.y, pose.theta).allFinite());
+  std::vector<LandmarkId> landmarks;
+  for (const LandmarkEstimate& estimate : filter.map()) {
+    EXPECT_TRUE(estimate.mean.allFinite()) << "landmark " << estimate.landmark;
+    landmarks.push_back(estimate.landmark);
+  }
+  const std::optional<MarginalCovariances> marginals = filter.marginal_covariances(landmarks);
+  EXPECT_TRUE(marginals.has_value());
+  if (!marginals) return marginals;
+  EXPECT_TRUE(marginals->pose.allFinite());
+  EXPECT_EQ(marginals->pose.llt().info(), Eigen::Success);
+  for (const Eigen::Matrix2d& covariance : marginals->landmarks) {
+    EXPECT_TRUE(covariance.allFinite());
+    EXPECT_EQ(covariance.llt().info(), Eigen::Success);
+  }
+  return marginals;
+}
+
+}  // namespace seif::test
