@@ -390,7 +390,7 @@ void MultilevelMean::carry_window(InformationState& state) {
 bool MultilevelMean::correct(InformationState& state) {
   if (state.active_count() == 0) return true;
   pass_forces_on();
-  for (int level = group(root_).level - 1; level >= 1; --level) {
+  for (int level = group(root_).level; level >= 1; --level) {
     gather_groups_of_window(state);
     for (int below = 1; below < level; ++below) go_up();
     for (const int i : near_) relax(i);
