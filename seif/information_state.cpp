@@ -1,9 +1,11 @@
 #include "seif/information_state.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -21,7 +23,33 @@ InformationState::InformationState(const PoseEstimate& start) {
 
 void InformationState::set_pose(const Pose2& pose) {
   mu_.head<3>() << pose.x, pose.y, pose.theta;
-  predicted_pose_ = pose;
+  linearisation_pose_ = uses_first_estimates() ? among_first_estimates(pose) : pose;
+}
+
+/// The pose after the rigid motion that brings the means of the active landmarks closest to their first
+/// estimates.
+Pose2 InformationState::among_first_estimates(const Pose2& pose) const {
+  if (active_count() < 2) return pose;
+  Eigen::Vector2d mean_centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d first_centre = Eigen::Vector2d::Zero();
+  for (int position = 0; position < active_count(); ++position) {
+    mean_centre += mu_.segment<2>(row_of(position));
+    first_centre += landmarks_[index(active(position))].first_estimate;
+  }
+  mean_centre /= active_count();
+  first_centre /= active_count();
+  double cosine = 0.0;  // of the angle between the two, times the same
+  double sine = 0.0;
+  for (int position = 0; position < active_count(); ++position) {
+    const Eigen::Vector2d a = mu_.segment<2>(row_of(position)) - mean_centre;
+    const Eigen::Vector2d b = landmarks_[index(active(position))].first_estimate - first_centre;
+    cosine += a.dot(b);
+    sine += a.x() * b.y() - a.y() * b.x();
+  }
+  const double angle = cosine == 0.0 && sine == 0.0 ? 0.0 : std::atan2(sine, cosine);
+  const Eigen::Rotation2Dd rotation(angle);
+  const Eigen::Vector2d p = first_centre + rotation * (Eigen::Vector2d(pose.x, pose.y) - mean_centre);
+  return {p.x(), p.y(), wrap_angle(pose.theta + angle)};
 }
 
 Eigen::Vector2d InformationState::linearisation_point(int slot) const {

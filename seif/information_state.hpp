@@ -51,16 +51,18 @@ class InformationState {
 
   // Where the steps linearise: at the mean, or at first estimates.
 
-  /// From now on Jacobians are taken at first estimates: the pose as it was predicted, and a landmark as it
-  /// was believed to be after it had been seen in `sightings` scans (at least one). What an observation says
-  /// then has the same null space from scan to scan, and nothing is learned of what nothing observes: Huang,
-  /// Mourikis, Roumeliotis, IJRR 2010. Their first estimate is that of the first sighting; a few more make
-  /// the Jacobians better. Before the first landmark joins.
+  /// From now on Jacobians are taken at first estimates: a landmark's is where it was believed to be after
+  /// `sightings` scans (at least one) that saw it. What the observations of a landmark say then has one and
+  /// the same null space for all time, so nothing is learned of what nothing observes: Huang, Mourikis,
+  /// Roumeliotis, IJRR 2010; theirs is the estimate of the first sighting, and the pose's that of its
+  /// prediction. Here the pose is linearised where its prediction stands among the first estimates: as soon
+  /// as the map as a whole has moved, as at the end of a loop, the two would not fit together. Before the
+  /// first landmark joins.
   void use_first_estimates(int sightings) { settled_after_ = sightings; }
   bool uses_first_estimates() const { return settled_after_ > 0; }
 
   /// The pose, and p_world_landmark, at which to take Jacobians.
-  Pose2 linearisation_pose() const { return uses_first_estimates() ? predicted_pose_ : pose(); }
+  Pose2 linearisation_pose() const { return uses_first_estimates() ? linearisation_pose_ : pose(); }
   Eigen::Vector2d linearisation_point(int slot) const;
 
   /// Takes the present means for the first estimates of active landmarks that are not settled yet.
@@ -186,6 +188,7 @@ class InformationState {
   void move_within_window(int from, int to);
   void reserve_window(int active_landmarks);
   void note_residual(Landmark& landmark);
+  Pose2 among_first_estimates(const Pose2& pose) const;
 
   std::vector<int> active_;  // slots, by position
   Eigen::MatrixXd Omega_;    // window, with room to grow
@@ -199,7 +202,7 @@ class InformationState {
   ChunkedArray<Link> links_;
   LandmarkIndex index_;
   int settled_after_ = 0;  // [-] sightings; 0: Jacobians at the mean
-  Pose2 predicted_pose_;
+  Pose2 linearisation_pose_;
   int scan_ = 0;
   bool tracks_residual_ = false;
   double squared_residual_ = 0.0;  // of the passive landmarks

@@ -43,25 +43,21 @@ void symmetrise_robot_rows(InformationState& state) {
   Omega.topRightCorner(3, landmarks) = Omega.bottomLeftCorner(landmarks, 3).transpose();
 }
 
-/// F, for the way from where the old pose was linearised to where the new one will be: with first estimates
-/// from prediction to prediction, else what the model says.
-Eigen::Matrix3d transition(const InformationState& state, const PredictedPose& predicted) {
-  Eigen::Matrix3d F = predicted.J_wrt_pose;
-  if (!state.uses_first_estimates()) return F;
-  const Pose2 from = state.linearisation_pose();
-  F(0, 2) = -(predicted.pose.y - from.y);
-  F(1, 2) = predicted.pose.x - from.x;
-  return F;
-}
-
 }  // namespace
 
 void motion_update(InformationState& state, const Odometry& odometry) {
   const PredictedPose predicted = predict_pose(state.pose(), odometry);
-  change_pose_variable(state, transition(state, predicted));
+  const Pose2 from = state.linearisation_pose();
+  state.set_pose(predicted.pose);
+  Eigen::Matrix3d F = predicted.J_wrt_pose;
+  if (state.uses_first_estimates()) {  // from one point of linearisation to the next
+    const Pose2 to = state.linearisation_pose();
+    F(0, 2) = from.y - to.y;
+    F(1, 2) = to.x - from.x;
+  }
+  change_pose_variable(state, F);
   add_motion_noise(state, predicted.noise_factor);
   symmetrise_robot_rows(state);
-  state.set_pose(predicted.pose);
   state.touch(state.window_blocks());
 }
 
