@@ -181,6 +181,8 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.active_landmarks = counts.active_landmarks;
   record.links = counts.links;
   record.relocations = counts.relocations;
+  record.mean_residual = counts.mean_residual;
+  record.anchoring = counts.anchoring;
   record.times = times_[index];
   times_[index] = {};
   recorder_.update(index, record);

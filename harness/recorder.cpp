@@ -66,7 +66,7 @@ Recorder::EstimatorFiles Recorder::open_estimator(const std::string& name) const
       name, CsvWriter(folder_ / (name + ".tum"), no_header, ' '),
       CsvWriter(folder_ / (name + "_steps.csv"),
                 "t,error_x,error_y,error_theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,"
-                "blocks_touched,active_landmarks,links,relocations"),
+                "blocks_touched,active_landmarks,links,relocations,mean_residual,anchoring"),
       CsvWriter(folder_ / (name + "_times.csv"), "t,update,motion,measurement,sparsification,mean_recovery"),
       CsvWriter(folder_ / (name + "_consistency.csv"),
                 "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes")};
@@ -138,8 +138,10 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
   files.steps.value(record.blocks_touched)
       .value(std::int64_t{record.active_landmarks})
       .value(record.links)
-      .value(record.relocations)
-      .end_row();
+      .value(record.relocations);
+  write_if_known(files.steps, record.mean_residual);
+  write_if_known(files.steps, record.anchoring);
+  files.steps.end_row();
 
   files.times.value(record.t).value(record.times.update);
   for (const std::optional<double>& stage : record.times.stages) write_if_known(files.times, stage);

@@ -57,17 +57,21 @@ void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
   CsvReader rows(folder / (score.name + "_steps.csv"),
                  {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt",
-                   "cov_tt", "blocks_touched", "active_landmarks", "links", "relocations"},
+                   "cov_tt", "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
                   {}});
   std::vector<double> blocks_touched;
+  std::vector<double> mean_residuals;
   while (rows.next()) {
     blocks_touched.push_back(rows.number(10));
     score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
     score.links = rows.integer(12, 0, most);
     score.relocations = rows.integer(13, 0, most);
+    if (!rows.is_empty(14)) mean_residuals.push_back(rows.number(14));
+    if (!rows.is_empty(15)) score.anchoring = rows.number(15);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
   }
   score.blocks_touched = percentiles(blocks_touched);
+  score.mean_residual = percentiles(mean_residuals);
 }
 
 void score_times(const std::filesystem::path& folder, EstimatorScore& score) {

@@ -56,6 +56,8 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links"] = count(score.links);
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
+  json["mean_residual"] = percentiles(score.mean_residual);
+  json["anchoring_nat"] = number(score.anchoring);
   json["active_max"] = count(score.active_max);
   json["memory_bytes"] = count(score.memory_bytes);
   json["failure"] = failure.empty() ? Json(nullptr) : Json(failure);
