@@ -109,7 +109,7 @@ RunResult run_seed(const CompareArguments& arguments, std::uint64_t seed, const 
 std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, const seif::Registry& registry,
                                                   Comparison& comparison) {
   if (!arguments.choices.estimators.empty())
-    throw BadInput("--estimators is for logs; for a world: --set 'estimators={ekf: {}, seif_report: {}}'");
+    throw BadInput("--estimators is for logs; for a world: --set 'estimators={ekf: {}, seif: {}}'");
   const std::vector<std::uint64_t> seeds =
       parse_seeds(arguments.seeds.empty() ? "1..20" : std::string_view(arguments.seeds));
   const worlds::LoadResult loaded =
@@ -200,7 +200,7 @@ void add_compare(CommandLine line) {
       "  seifbed compare worlds/courtyard.yaml\n"
       "  seifbed compare worlds/report2002.yaml --seeds 1..50 --jobs 2 --baseline batch\n"
       "  seifbed compare worlds/courtyard.yaml --seeds 3,5,8 --set 'estimators={ekf: {}, eseif: {}}'\n"
-      "  seifbed compare logs/* --estimators ekf,seif_report --baseline batch --json\n"
+      "  seifbed compare logs/* --estimators ekf,seif --baseline batch --json\n"
       "Every estimator gets the same stream in each run, so ratios are of pairs. Update times are right "
       "with\n"
       "one job alone. What the columns mean is described in docs/scores.md.");

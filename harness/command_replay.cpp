@@ -38,9 +38,9 @@ void add_replay(CommandLine line) {
       "Examples:\n"
       "  seifbed replay runs/courtyard-1\n"
       "  seifbed replay runs/courtyard-1 --estimators ekf --set estimators.ekf.odometry_sd_factor=2\n"
-      "  seifbed replay my_log --estimators ekf,seif_report --out /tmp/mine\n"
+      "  seifbed replay my_log --estimators ekf,seif --out /tmp/mine\n"
       "A folder with a world.yaml is replayed with the estimators and options that stand there;\n"
-      "any other with ekf and seif_report. The log format is described in docs/log_format.md.");
+      "any other with ekf, seif and seif_report. The log format is described in docs/log_format.md.");
   auto arguments = std::make_shared<ReplayArguments>();
   command->add_option("FOLDER", arguments->folder, "Log folder")->required();
   command

@@ -16,7 +16,7 @@ namespace {
 
 /// What a log of other origin is fed to, unless the command line says otherwise: the baseline, and the
 /// report's filter in constant time. Some of the other filters would take hours over a long log.
-constexpr const char* default_settings = "estimators: {ekf: {}, seif_report: {}}";
+constexpr const char* default_settings = "estimators: {ekf: {}, seif: {}, seif_report: {}}";
 
 /// The document of the run that wrote the log.
 std::optional<worlds::Node> read_settings(const std::filesystem::path& folder,

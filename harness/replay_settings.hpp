@@ -18,7 +18,7 @@ struct ReplayChoices {
   std::string seed;                     // checked as part of the settings; empty: the file's
 };
 
-/// From the world.yaml of the log; for a log without one, `ekf` and `seif_report`. Throws BadInput for a
+/// From the world.yaml of the log; for a log without one, `ekf`, `seif` and `seif_report`. Throws BadInput for a
 /// choice that is none.
 worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                         const seif::Registry& registry);

@@ -58,13 +58,19 @@ void Seif::add_known(const Scan& scan) {
   for (const Observation& observation : scan.observations) {
     const std::optional<int> slot = state_.find(observation.landmark);
     if (!slot) continue;
-    factors_.push_back(linearise(state_, *slot, observation, T_robot_sensor_));
-    ObservationFactor& factor = factors_.back();
-    if (squared_norm(factor.v, factor) > options_.closing_gate) {
-      factor = linearise_at_measurement(state_, *slot, observation, T_robot_sensor_);
-    }
+    factors_.push_back(is_closing(*slot, observation)
+                           ? linearise_at_measurement(state_, *slot, observation, T_robot_sensor_)
+                           : linearise(state_, *slot, observation, T_robot_sensor_));
   }
   for (const ObservationFactor& factor : factors_) add(state_, factor);
+}
+
+/// Whether the landmark is seen so far from where it is believed to be that the direction to it is useless.
+bool Seif::is_closing(int slot, const Observation& observation) const {
+  if (options_.closing_gate <= 0.0) return false;
+  const Eigen::Vector2d seen_at =
+      invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark;
+  return (seen_at - state_.mean(slot)).norm() > options_.closing_gate * observation.range;
 }
 
 /// Takes out those factors that the step has moved too far from where they are linear, and puts them in again

@@ -104,8 +104,8 @@ EstimatorType seif() {
       .fallback = defaults.closing_gate,
       .min = 0.0,
       .help =
-          "Squared innovation over its noise above which an observation is linearised at what was measured "
-          "[-]."};
+          "An observation is linearised at what was measured if that is farther from where the landmark is "
+          "believed to be than so many times the range; 0: never [-]."};
   const OptionSpec mean_recovery{.key = "mean_recovery",
                                  .fallback = std::string("multilevel"),
                                  .choices = {"multilevel", "exact"},
