@@ -276,11 +276,13 @@ void MultilevelMean::after_information(const InformationState& state) {
       }
     }
     if (near_.front() == root_) return;
-    for (int a = 0; a < groups; ++a) {  // change <- change T
+    for (int a = 0; a < groups; ++a) {  // change <- T' change T
       const Group& g = group(near_[static_cast<std::size_t>(a)]);
       const Eigen::Matrix3d T = group_in_group(g.centre - group(g.parent).centre);
-      change_.middleCols<3>(3 * a).topRows(3 * groups) *= T;
-      change_.middleRows<3>(3 * a).leftCols(3 * groups).applyOnTheLeft(T.transpose());
+      for (int b = 0; b < groups; ++b) {  // block by block: of fixed size, in place and yet without a heap
+        change_.block<3, 3>(3 * b, 3 * a) *= T;
+        change_.block<3, 3>(3 * a, 3 * b).applyOnTheLeft(T.transpose());
+      }
     }
     go_up();
     size = 3 * static_cast<Eigen::Index>(near_.size());
@@ -299,16 +301,21 @@ void MultilevelMean::after_information(const InformationState& state) {
 
 // The solution.
 
+Eigen::VectorXd::SegmentReturnType MultilevelMean::window_step(const InformationState& state) {
+  if (step_.size() < state.window_size()) step_.resize(2 * state.window_size());
+  return step_.head(state.window_size());
+}
+
 bool MultilevelMean::solve_window(InformationState& state) {
-  step_.resize(state.window_size());
-  step_ = state.r();
+  auto step = window_step(state);
+  step = state.r();
   for (int p = 0; p < state.active_count(); ++p) {
-    step_.segment<2>(InformationState::row_of(p)) += pull(state, state.active(p));
+    step.segment<2>(InformationState::row_of(p)) += pull(state, state.active(p));
   }
-  if (!solve_for_window(state, step_)) return false;
-  state.move_window(step_);
+  if (!solve_for_window(state, step)) return false;
+  state.move_window(step);
   for (int p = 0; p < state.active_count(); ++p) {
-    const Eigen::Vector2d d = step_.segment<2>(InformationState::row_of(p));
+    const Eigen::Vector2d d = step.segment<2>(InformationState::row_of(p));
     state.for_each_neighbour(state.active(p), [&](int other, const auto& Omega_po) {
       if (state.position(other) < 0) add_force_of(other, -(Omega_po.transpose() * d));
     });
@@ -374,17 +381,18 @@ void MultilevelMean::relax_landmarks(InformationState& state, int i) {
 
 /// The active landmarks go where their groups have gone, and the robot with them.
 void MultilevelMean::carry_window(InformationState& state) {
-  step_.resize(state.window_size());
+  auto step = window_step(state);
   for (int p = 0; p < state.active_count(); ++p) {
     const Eigen::Vector2d d = missing(state.active(p));
     member(state.active(p)).stored += d;
-    step_.segment<2>(InformationState::row_of(p)) = d;
+    step.segment<2>(InformationState::row_of(p)) = d;
   }
   const auto Omega = state.Omega();
   const auto landmarks = Omega.rows() - 3;
   const Eigen::LLT<Eigen::Matrix3d> Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
-  step_.head<3>() = -Omega_xx.solve(Omega.topRightCorner(3, landmarks) * step_.tail(landmarks));
-  state.move_window(step_);
+  const Eigen::Vector3d pulled = Omega.topRows<3>().rightCols(landmarks) * step.tail(landmarks);
+  step.head<3>() = -Omega_xx.solve(pulled);
+  state.move_window(step);
 }
 
 bool MultilevelMean::correct(InformationState& state) {
