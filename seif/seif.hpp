@@ -19,7 +19,7 @@ struct SeifOptions {
   double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
   double closing_gate = 200.0;  // [-] v' Q^-1 v above which an observation is linearised at what was measured
   bool exact_mean = false;      // by sparse Cholesky, not in constant time
-  MultilevelOptions multilevel;
+  MultilevelOptions multilevel = {};
 };
 
 /// What it does otherwise than the report's filter:
@@ -46,7 +46,7 @@ class Seif final : public Estimator {
  private:
   void activate_known(const Scan& scan);
   void add_known(const Scan& scan);
-  void add_new(const Scan& scan);
+  [[nodiscard]] bool add_new(const Scan& scan);
   void relinearise(double t);
   void solve_window(double t);
   void sparsify(double t);

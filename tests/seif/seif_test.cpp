@@ -44,5 +44,18 @@ TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
   }
 }
 
+TEST(Seif, ReportsNoErrorOfTheMeanWhereTheMeanIsExact) {
+  RingDrive drive(60, 5);
+  Seif exact(drive.setup(), {.exact_mean = true});
+  Seif multilevel(drive.setup(), {});
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) {
+    drive.step(exact);
+    multilevel.motion_update(drive.odometry());
+    multilevel.measurement_update(drive.scan(), test::ignore);
+  }
+  EXPECT_FALSE(exact.counts().mean_residual);
+  EXPECT_GT(multilevel.counts().mean_residual.value(), 0.0);
+}
+
 }  // namespace
 }  // namespace seif
