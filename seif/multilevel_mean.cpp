@@ -337,8 +337,8 @@ void MultilevelMean::note_residual(int i, double residual) {
   g.residual = residual;
 }
 
-/// Moves a group to where it is pulled no more, and a little further. The levels above feel it at once, those
-/// below when they look.
+/// Moves a group to where it is pulled no more, and a little further. The levels below feel it when they
+/// look, those above in the next update.
 void MultilevelMean::relax(int i) {
   Group& g = group(i);
   const Eigen::LDLT<Eigen::Matrix3d> A(g.A);
@@ -398,7 +398,7 @@ void MultilevelMean::carry_window(InformationState& state) {
 bool MultilevelMean::correct(InformationState& state) {
   if (state.active_count() == 0) return true;
   pass_forces_on();
-  for (int level = group(root_).level - 1; level >= 1; --level) {
+  for (int level = group(root_).level; level >= 1; --level) {
     gather_groups_of_window(state);
     for (int below = 1; below < level; ++below) go_up();
     for (const int i : near_) relax(i);
