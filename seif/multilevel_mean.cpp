@@ -171,9 +171,10 @@ Eigen::Vector2d MultilevelMean::mean(const InformationState& state, int slot) co
 }
 
 /// What the missing motions of its neighbours do to the r of a landmark.
-Eigen::Vector2d MultilevelMean::pull(const InformationState& state, int slot) const {
+Eigen::Vector2d MultilevelMean::pull(const InformationState& state, int slot) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+    ++blocks_touched_;
     if (state.position(other) < 0) sum -= Omega_so * missing(other);
   });
   return sum;
@@ -245,6 +246,7 @@ void MultilevelMean::add_information(int i, int j, const Eigen::Matrix3d& A) {
 
 void MultilevelMean::before_information(const InformationState& state) {
   active_before_ = state.active_count();
+  blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_before_);
 }
 
@@ -252,6 +254,7 @@ void MultilevelMean::before_information(const InformationState& state) {
 /// on.
 void MultilevelMean::after_information(const InformationState& state) {
   if (state.active_count() == 0) return;
+  blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_after_);
   D_after_.topLeftCorner(2 * active_before_, 2 * active_before_) -=
       D_before_.topLeftCorner(2 * active_before_, 2 * active_before_);
@@ -317,6 +320,7 @@ bool MultilevelMean::solve_window(InformationState& state) {
   for (int p = 0; p < state.active_count(); ++p) {
     const Eigen::Vector2d d = step.segment<2>(InformationState::row_of(p));
     state.for_each_neighbour(state.active(p), [&](int other, const auto& Omega_po) {
+      ++blocks_touched_;
       if (state.position(other) < 0) add_force_of(other, -(Omega_po.transpose() * d));
     });
   }
@@ -369,8 +373,10 @@ void MultilevelMean::relax_landmark(InformationState& state, int slot) {
   state.move_landmark(slot, unseen + step);
   member(slot).stored += unseen;
   add_force_of(slot, -r);
-  state.for_each_neighbour(
-      slot, [&](int other, const auto& Omega_so) { add_force_of(other, -(Omega_so.transpose() * step)); });
+  state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+    ++blocks_touched_;
+    add_force_of(other, -(Omega_so.transpose() * step));
+  });
 }
 
 void MultilevelMean::relax_landmarks(InformationState& state, int i) {

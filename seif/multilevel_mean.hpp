@@ -111,7 +111,7 @@ class MultilevelMean {
   const Eigen::Vector3d& total(int i) const;
   void move(int i, const Eigen::Vector3d& d);
   Eigen::Vector2d missing(int slot) const;
-  Eigen::Vector2d pull(const InformationState& state, int slot) const;
+  Eigen::Vector2d pull(const InformationState& state, int slot);
 
   void add_force(int i, const Eigen::Vector3d& q);
   void add_force_of(int slot, const Eigen::Vector2d& f);
