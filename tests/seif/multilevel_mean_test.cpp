@@ -197,6 +197,27 @@ TEST_F(AfterClosure, ARobotAtRestComesToTheExactMean) {
   EXPECT_LT(last, 0.01 * first);
 }
 
+// A level is added above groups that have moved by then.
+TEST_F(AfterClosure, TheMapMayGrowByALevel) {
+  const Odometry at_rest;
+  for (int k = 0; k < 20; ++k) {  // ten landmarks at a time, each ten well away from the last
+    Scan scan;
+    for (int i = 0; i < 10; ++i) {
+      Observation z{.landmark = 1000 + 10 * k + i, .range = 20.0 + 3.0 * k + i, .bearing = 0.3 * i};
+      z.covariance.diagonal() << 4e-4, 1e-4;
+      scan.observations.push_back(z);
+    }
+    mapper.update(at_rest, scan);
+  }
+  double last = mapper.squared_error();
+  for (int k = 0; k < 30; ++k) {
+    mapper.update(at_rest, {});
+    const double now = mapper.squared_error();
+    ASSERT_LE(now, last * (1 + rounding)) << "update " << k;
+    last = now;
+  }
+}
+
 /// A small room, of which the robot sees three landmarks at a time, at random.
 Mapper in_room(int landmarks, const MultilevelOptions& options, int updates) {
   oracle::RandomDrive random(11);
