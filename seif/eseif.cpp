@@ -58,9 +58,9 @@ void Eseif::hold_back(const Scan& scan) {
   std::ranges::sort(known_, {}, &Observation::bearing);
   const std::size_t count = std::min(known_.size(), static_cast<std::size_t>(options_.relocation_landmarks));
   for (std::size_t i = 0; i < count; ++i) held_back_.push_back(known_[i * known_.size() / count]);
-  std::erase_if(now_, [this](const Observation& observation) {
-    return std::ranges::find(held_back_, observation.landmark, &Observation::landmark) != held_back_.end();
-  });
+  for (const Observation& observation : held_back_) {  // the first of its landmark: others remain in now_
+    now_.erase(std::ranges::find(now_, observation.landmark, &Observation::landmark));
+  }
 }
 
 void Eseif::solve(double t) {

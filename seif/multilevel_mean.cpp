@@ -171,9 +171,10 @@ Eigen::Vector2d MultilevelMean::mean(const InformationState& state, int slot) co
 }
 
 /// What the missing motions of its neighbours do to the r of a landmark.
-Eigen::Vector2d MultilevelMean::pull(const InformationState& state, int slot) const {
+Eigen::Vector2d MultilevelMean::pull(const InformationState& state, int slot) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+    ++blocks_touched_;
     if (state.position(other) < 0) sum -= Omega_so * missing(other);
   });
   return sum;
@@ -245,6 +246,7 @@ void MultilevelMean::add_information(int i, int j, const Eigen::Matrix3d& A) {
 
 void MultilevelMean::before_information(const InformationState& state) {
   active_before_ = state.active_count();
+  blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_before_);
 }
 
@@ -252,6 +254,7 @@ void MultilevelMean::before_information(const InformationState& state) {
 /// on.
 void MultilevelMean::after_information(const InformationState& state) {
   if (state.active_count() == 0) return;
+  blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_after_);
   D_after_.topLeftCorner(2 * active_before_, 2 * active_before_) -=
       D_before_.topLeftCorner(2 * active_before_, 2 * active_before_);
@@ -276,11 +279,13 @@ void MultilevelMean::after_information(const InformationState& state) {
       }
     }
     if (near_.front() == root_) return;
-    for (int a = 0; a < groups; ++a) {  // change <- change T
+    for (int a = 0; a < groups; ++a) {  // change <- T' change T
       const Group& g = group(near_[static_cast<std::size_t>(a)]);
       const Eigen::Matrix3d T = group_in_group(g.centre - group(g.parent).centre);
-      change_.middleCols<3>(3 * a).topRows(3 * groups) *= T;
-      change_.middleRows<3>(3 * a).leftCols(3 * groups).applyOnTheLeft(T.transpose());
+      for (int b = 0; b < groups; ++b) {  // block by block: of fixed size, in place and yet without a heap
+        change_.block<3, 3>(3 * b, 3 * a) *= T;
+        change_.block<3, 3>(3 * a, 3 * b).applyOnTheLeft(T.transpose());
+      }
     }
     go_up();
     size = 3 * static_cast<Eigen::Index>(near_.size());
@@ -299,17 +304,23 @@ void MultilevelMean::after_information(const InformationState& state) {
 
 // The solution.
 
+Eigen::VectorXd::SegmentReturnType MultilevelMean::window_step(const InformationState& state) {
+  if (step_.size() < state.window_size()) step_.resize(2 * state.window_size());
+  return step_.head(state.window_size());
+}
+
 bool MultilevelMean::solve_window(InformationState& state) {
-  step_.resize(state.window_size());
-  step_ = state.r();
+  auto step = window_step(state);
+  step = state.r();
   for (int p = 0; p < state.active_count(); ++p) {
-    step_.segment<2>(InformationState::row_of(p)) += pull(state, state.active(p));
+    step.segment<2>(InformationState::row_of(p)) += pull(state, state.active(p));
   }
-  if (!solve_for_window(state, step_)) return false;
-  state.move_window(step_);
+  if (!solve_for_window(state, step)) return false;
+  state.move_window(step);
   for (int p = 0; p < state.active_count(); ++p) {
-    const Eigen::Vector2d d = step_.segment<2>(InformationState::row_of(p));
+    const Eigen::Vector2d d = step.segment<2>(InformationState::row_of(p));
     state.for_each_neighbour(state.active(p), [&](int other, const auto& Omega_po) {
+      ++blocks_touched_;
       if (state.position(other) < 0) add_force_of(other, -(Omega_po.transpose() * d));
     });
   }
@@ -330,8 +341,8 @@ void MultilevelMean::note_residual(int i, double residual) {
   g.residual = residual;
 }
 
-/// Moves a group to where it is pulled no more, and a little further. The levels above feel it at once, those
-/// below when they look.
+/// Moves a group to where it is pulled no more, and a little further. The levels below feel it when they
+/// look, those above in the next update.
 void MultilevelMean::relax(int i) {
   Group& g = group(i);
   const Eigen::LDLT<Eigen::Matrix3d> A(g.A);
@@ -362,8 +373,10 @@ void MultilevelMean::relax_landmark(InformationState& state, int slot) {
   state.move_landmark(slot, unseen + step);
   member(slot).stored += unseen;
   add_force_of(slot, -r);
-  state.for_each_neighbour(
-      slot, [&](int other, const auto& Omega_so) { add_force_of(other, -(Omega_so.transpose() * step)); });
+  state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+    ++blocks_touched_;
+    add_force_of(other, -(Omega_so.transpose() * step));
+  });
 }
 
 void MultilevelMean::relax_landmarks(InformationState& state, int i) {
@@ -374,17 +387,18 @@ void MultilevelMean::relax_landmarks(InformationState& state, int i) {
 
 /// The active landmarks go where their groups have gone, and the robot with them.
 void MultilevelMean::carry_window(InformationState& state) {
-  step_.resize(state.window_size());
+  auto step = window_step(state);
   for (int p = 0; p < state.active_count(); ++p) {
     const Eigen::Vector2d d = missing(state.active(p));
     member(state.active(p)).stored += d;
-    step_.segment<2>(InformationState::row_of(p)) = d;
+    step.segment<2>(InformationState::row_of(p)) = d;
   }
   const auto Omega = state.Omega();
   const auto landmarks = Omega.rows() - 3;
   const Eigen::LLT<Eigen::Matrix3d> Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
-  step_.head<3>() = -Omega_xx.solve(Omega.topRightCorner(3, landmarks) * step_.tail(landmarks));
-  state.move_window(step_);
+  const Eigen::Vector3d pulled = Omega.topRows<3>().rightCols(landmarks) * step.tail(landmarks);
+  step.head<3>() = -Omega_xx.solve(pulled);
+  state.move_window(step);
 }
 
 bool MultilevelMean::correct(InformationState& state) {

@@ -111,7 +111,7 @@ class MultilevelMean {
   const Eigen::Vector3d& total(int i) const;
   void move(int i, const Eigen::Vector3d& d);
   Eigen::Vector2d missing(int slot) const;
-  Eigen::Vector2d pull(const InformationState& state, int slot) const;
+  Eigen::Vector2d pull(const InformationState& state, int slot);
 
   void add_force(int i, const Eigen::Vector3d& q);
   void add_force_of(int slot, const Eigen::Vector2d& f);
@@ -125,6 +125,8 @@ class MultilevelMean {
   void relax_landmarks(InformationState& state, int i);
   void relax_landmark(InformationState& state, int slot);
   void carry_window(InformationState& state);
+  /// (w x 1) of what step_ has room for.
+  Eigen::VectorXd::SegmentReturnType window_step(const InformationState& state);
 
   MultilevelOptions options_;
   mutable ChunkedArray<Group> groups_;  // mutable for cached totals
@@ -146,7 +148,7 @@ class MultilevelMean {
   Eigen::MatrixXd D_before_, D_after_;             // (2k x 2k) information of the window without the robot
   Eigen::MatrixXd change_, change_above_;          // (3g x 3g) of the groups in near_
   Eigen::Matrix<double, Eigen::Dynamic, 3> half_;  // (2k x 3)
-  Eigen::VectorXd step_;                           // (w x 1)
+  Eigen::VectorXd step_;                           // (w x 1), with room to grow
 };
 
 }  // namespace seif

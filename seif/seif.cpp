@@ -31,7 +31,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   add_known(scan);
   solve_window(scan.t);
   if (options_.first_estimates == 0) relinearise(scan.t);
-  add_new(scan);
+  if (!add_new(scan)) solve_window(scan.t);
   mean_.after_information(state_);
   state_.update_first_estimates();
   done(Stage::measurement);
@@ -95,17 +95,25 @@ void Seif::relinearise(double t) {
 }
 
 /// Landmarks never seen before, placed from the pose as the others have corrected it: their innovation is
-/// zero.
-void Seif::add_new(const Scan& scan) {
+/// zero. False if it is not, where one was seen more than once, and the window is to be solved for again.
+bool Seif::add_new(const Scan& scan) {
+  const int known = state_.landmark_count();
+  bool seen_once = true;
   for (const Observation& observation : scan.observations) {
-    if (state_.find(observation.landmark)) continue;
-    const int slot =
-        state_.add_landmark(observation.landmark,
-                            invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark);
-    mean_.join(state_, slot);
-    state_.mark_seen(slot);
-    add(state_, linearise(state_, slot, observation, T_robot_sensor_));
+    std::optional<int> slot = state_.find(observation.landmark);
+    if (slot && *slot < known) continue;
+    if (slot) {
+      seen_once = false;
+    } else {
+      slot = state_.add_landmark(
+          observation.landmark,
+          invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark);
+      mean_.join(state_, *slot);
+      state_.mark_seen(*slot);
+    }
+    add(state_, linearise(state_, *slot, observation, T_robot_sensor_));
   }
+  return seen_once;
 }
 
 void Seif::solve_window(double t) {
@@ -134,7 +142,7 @@ Counts Seif::counts() const {
   return {.blocks_touched = state_.blocks_touched() + mean_.blocks_touched(),
           .active_landmarks = state_.active_count(),
           .links = state_.link_count(),
-          .mean_residual = mean_.residual(),
+          .mean_residual = options_.exact_mean ? std::nullopt : std::optional(mean_.residual()),
           .anchoring = anchoring_};
 }
 

@@ -22,7 +22,7 @@ struct SeifOptions {
   /// 0: never. It did no good on rings of 500 m to 2 km, and costs consistency.
   double closing_gate = 0.0;
   bool exact_mean = false;  // by sparse Cholesky, not in constant time
-  MultilevelOptions multilevel;
+  MultilevelOptions multilevel = {};
 };
 
 /// What it does otherwise than the report's filter:
@@ -50,7 +50,7 @@ class Seif final : public Estimator {
   void activate_known(const Scan& scan);
   void add_known(const Scan& scan);
   bool is_closing(int slot, const Observation& observation) const;
-  void add_new(const Scan& scan);
+  [[nodiscard]] bool add_new(const Scan& scan);
   void relinearise(double t);
   void solve_window(double t);
   void sparsify(double t);

@@ -66,5 +66,32 @@ TEST(Eseif, TakesAScanOfNewLandmarksOnlyWithoutRelocating) {
   EXPECT_GT(filter.counts().active_landmarks, 3);
 }
 
+constexpr double relocates_at = 6.0;  // [s] the first time, in this drive
+
+/// log det of the information after the first scan that relocates, in which the observation `repeated`, if
+/// there is one, came twice.
+double information_after_relocation(int repeated) {
+  RingDrive drive(60, 2);
+  Eseif filter(drive.setup(), {.theta_x = 12, .relocation_landmarks = 4});
+  while (filter.counts().relocations == 0) {
+    drive.advance();
+    filter.motion_update(drive.odometry());
+    Scan scan = drive.scan();
+    if (repeated >= 0 && drive.scan().t == relocates_at) {
+      scan.observations.push_back(scan.observations[static_cast<std::size_t>(repeated)]);
+    }
+    filter.measurement_update(scan, test::ignore);
+  }
+  EXPECT_EQ(drive.scan().t, relocates_at);
+  return oracle::symmetric(filter.state().full_Omega()).llt().matrixLLT().diagonal().array().log().sum();
+}
+
+TEST(Eseif, UsesBothObservationsOfALandmarkSeenTwiceAlsoIfOneIsHeldBack) {
+  const double once = information_after_relocation(-1);
+  for (int repeated = 0; repeated < 8; ++repeated) {
+    EXPECT_GT(information_after_relocation(repeated), once + 0.01) << "observation " << repeated;
+  }
+}
+
 }  // namespace
 }  // namespace seif

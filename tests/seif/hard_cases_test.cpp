@@ -178,6 +178,32 @@ TEST_P(HardCase, AHundredObservationsInOneScanAreTaken) {
   if (std::ranges::find(drops_in_view, GetParam()) == drops_in_view.end()) expect_near_truth(0.1, 0.05);
 }
 
+TEST_P(HardCase, ALandmarkTwiceInOneScanCountsTwice) {
+  const std::unique_ptr<Estimator> once = std::exchange(filter, nullptr);
+  SetUp();
+  for (int k = 0; k < 3; ++k) {  // new to begin with, then known
+    Scan twice{.t = t, .observations = {}};
+    Scan sharper = twice;  // once, with half the covariance: the same information
+    for (const auto& [landmark, p] : in_view()) {
+      const Observation z = random.observation(landmark, sensor(), p);
+      twice.observations.insert(twice.observations.end(), 2, z);
+      sharper.observations.push_back(z);
+      sharper.observations.back().covariance /= 2.0;
+    }
+    filter->measurement_update(twice, ignore);
+    once->measurement_update(sharper, ignore);
+    const auto marginals = proper_belief(*filter);
+    const auto expected = proper_belief(*once);
+    ASSERT_TRUE(marginals && expected);
+    ASSERT_EQ(marginals->landmarks.size(), expected->landmarks.size());
+    EXPECT_LT((marginals->pose - expected->pose).norm(), 1e-9 * expected->pose.norm());
+    for (std::size_t i = 0; i < expected->landmarks.size(); ++i) {
+      EXPECT_LT((marginals->landmarks[i] - expected->landmarks[i]).norm(),
+                1e-9 * expected->landmarks[i].norm());
+    }
+  }
+}
+
 TEST_P(HardCase, AnEmptyScanTellsNothing) {
   look({});
   EXPECT_TRUE(filter->map().empty());

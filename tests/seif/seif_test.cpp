@@ -1,0 +1,61 @@
+// Our filter as a whole: what an update costs, in a map of any size, and options at their limits.
+#include "seif/seif.hpp"
+
+#include <gtest/gtest.h>
+
+#include "allocation_counter.hpp"
+#include "ring_drive.hpp"
+
+namespace seif {
+namespace {
+
+using test::RingDrive;
+
+/// Mean number of blocks touched by an update at the end of one round.
+double blocks_touched(int landmarks) {
+  RingDrive drive(landmarks, 3);
+  Seif filter(drive.setup(), {});
+  const int measured = 100;
+  for (int k = 0; k < drive.steps_for_a_round() - measured; ++k) drive.step(filter);
+  const std::int64_t before = filter.counts().blocks_touched;
+  for (int k = 0; k < measured; ++k) drive.step(filter);
+  return static_cast<double>(filter.counts().blocks_touched - before) / measured;
+}
+
+// Not equal: the number of levels of groups, of which a few are moved at each, grows with log N. From 1,000
+// to 20,000 landmarks that is two levels more.
+TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
+  const double small = blocks_touched(1'000);
+  const double large = blocks_touched(test::under_sanitizer ? 2'000 : 20'000);
+  EXPECT_NEAR(large / small, 1.0, 0.15);
+}
+
+TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
+  if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
+  RingDrive drive(300, 4);
+  Seif filter(drive.setup(), {});
+  for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) drive.step(filter);
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) {
+    drive.advance();
+    const long before = allocations();
+    filter.motion_update(drive.odometry());
+    filter.measurement_update(drive.scan(), test::ignore);
+    ASSERT_EQ(allocations(), before) << "step " << k;
+  }
+}
+
+TEST(Seif, ReportsNoErrorOfTheMeanWhereTheMeanIsExact) {
+  RingDrive drive(60, 5);
+  Seif exact(drive.setup(), {.exact_mean = true});
+  Seif multilevel(drive.setup(), {});
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) {
+    drive.step(exact);
+    multilevel.motion_update(drive.odometry());
+    multilevel.measurement_update(drive.scan(), test::ignore);
+  }
+  EXPECT_FALSE(exact.counts().mean_residual);
+  EXPECT_GT(multilevel.counts().mean_residual.value(), 0.0);
+}
+
+}  // namespace
+}  // namespace seif
