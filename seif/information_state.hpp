@@ -49,19 +49,19 @@ class InformationState {
   /// The mean of the pose as a motion predicts it; the caller keeps r.
   void set_pose(const Pose2& pose);
 
-  // Where the steps linearise: at the mean, or at first estimates.
+  // What the steps take for the null space of what is observed: at the mean, or at first estimates.
 
-  /// From now on Jacobians are taken at first estimates: a landmark's is where it was believed to be after
-  /// `sightings` scans (at least one) that saw it. What the observations of a landmark say then has one and
-  /// the same null space for all time, so nothing is learned of what nothing observes: Huang, Mourikis,
-  /// Roumeliotis, IJRR 2010; theirs is the estimate of the first sighting, and the pose's that of its
-  /// prediction. Here the pose is linearised where its prediction stands among the first estimates: as soon
-  /// as the map as a whole has moved, as at the end of a loop, the two would not fit together. Before the
-  /// first landmark joins.
+  /// From now on moving and turning everything at once is taken to move the pose and the landmarks about
+  /// their first estimates, a landmark's being where it was believed to be after `sightings` scans (at least
+  /// one) that saw it. Then this motion is one and the same for all time, and nothing is learned of what
+  /// nothing observes: Huang, Mourikis, Roumeliotis, "Observability-based rules for designing consistent EKF
+  /// SLAM estimators", IJRR 2010. The pose's is where its prediction stands among the first estimates; once
+  /// the map has moved as a whole, as at the end of a loop, the prediction itself would not fit to them.
+  /// Before the first landmark joins.
   void use_first_estimates(int sightings) { settled_after_ = sightings; }
   bool uses_first_estimates() const { return settled_after_ > 0; }
 
-  /// The pose, and p_world_landmark, at which to take Jacobians.
+  /// The pose, and p_world_landmark, that levers are to be taken between.
   Pose2 linearisation_pose() const { return uses_first_estimates() ? linearisation_pose_ : pose(); }
   Eigen::Vector2d linearisation_point(int slot) const;
 

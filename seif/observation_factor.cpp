@@ -16,6 +16,15 @@ ObservationFactor unlinearised(const InformationState& state, int slot, const Ob
   return factor;
 }
 
+/// With first estimates: what turning the pose does is the opposite of what turning the landmark's first
+/// estimate about the pose's does, so that turning everything does nothing.
+void keep_null_space(const InformationState& state, ObservationFactor& factor) {
+  if (!state.uses_first_estimates()) return;
+  const Pose2 x = state.linearisation_pose();
+  const Eigen::Vector2d lever = state.linearisation_point(factor.slot) - Eigen::Vector2d(x.x, x.y);
+  factor.J_x.col(2) = factor.J_m * Eigen::Vector2d(lever.y(), -lever.x());
+}
+
 void add_scaled(InformationState& state, const ObservationFactor& factor, double sign) {
   const int row = InformationState::row_of(state.position(factor.slot));
   const Eigen::Vector2d v = residual(state, factor);
@@ -37,11 +46,11 @@ void add_scaled(InformationState& state, const ObservationFactor& factor, double
 ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
                             const Pose2& T_robot_sensor) {
   ObservationFactor factor = unlinearised(state, slot, observation);
-  factor.v = innovation(observation, predict_observation(factor.x0, T_robot_sensor, factor.m0).z);
-  const PredictedObservation predicted =
-      predict_observation(state.linearisation_pose(), T_robot_sensor, state.linearisation_point(slot));
+  const PredictedObservation predicted = predict_observation(factor.x0, T_robot_sensor, factor.m0);
+  factor.v = innovation(observation, predicted.z);
   factor.J_x = predicted.J_wrt_pose;
   factor.J_m = predicted.J_wrt_landmark;
+  keep_null_space(state, factor);
   return factor;
 }
 
@@ -53,6 +62,7 @@ ObservationFactor linearise_at_measurement(const InformationState& state, int sl
   factor.J_x = predicted.J_wrt_pose;
   factor.J_m = predicted.J_wrt_landmark;
   factor.v = factor.J_m * (seen_at - factor.m0);  // at seen_at the innovation is zero
+  keep_null_space(state, factor);
   return factor;
 }
 

@@ -21,7 +21,7 @@ struct ObservationFactor {
   Eigen::Vector2d m0 = Eigen::Vector2d::Zero();         // p_world_landmark [m]
 };
 
-/// Linearised at the mean of the state.
+/// Linearised at the mean of the state; with first estimates, what turning the pose does is taken from them.
 ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
                             const Pose2& T_robot_sensor);
 

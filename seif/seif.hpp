@@ -13,8 +13,9 @@ namespace seif {
 struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
   int theta_max = 16;  // [-] sparsify only when the robot has more links than this
-  /// [-] A landmark is linearised where it is believed to be after so many scans that saw it, the pose where
-  /// it was predicted. 0: both at the mean, and again after the update if they have moved too far.
+  /// [-] A landmark's first estimate is that after so many scans that saw it (InformationState::
+  /// use_first_estimates). 0: none; observations are linearised again after the update where the mean has
+  /// moved too far.
   int first_estimates = 5;
   double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
   /// [-] An observation is linearised at what was measured where that lies farther from where the landmark is
@@ -28,7 +29,8 @@ struct SeifOptions {
 /// What it does otherwise than the report's filter:
 /// - keeps r = xi - Omega mu, so that a step of the mean is exact (information_state);
 /// - solves for robot and active landmarks after the observations, and places new landmarks from there;
-/// - takes Jacobians at first estimates, so that it does not learn what nothing observes;
+/// - takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
+///   observes;
 /// - sparsifies by the gauge-free rule, in bursts, and never what is in view (sparsification);
 /// - moves groups of landmarks of every size, each update a few (multilevel_mean).
 class Seif final : public Estimator {

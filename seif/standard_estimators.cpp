@@ -90,8 +90,8 @@ EstimatorType seif() {
       .min = 0,
       .max = 1000,
       .help =
-          "Scans after which a landmark's place is settled for all Jacobians to come; 0: Jacobians at the "
-          "mean, relinearised [-]."};
+          "Scans after which a landmark's first estimate is settled, which fixes what the filter cannot "
+          "observe; 0: none, but observations are relinearised [-]."};
   const OptionSpec relinearise_above{
       .key = "relinearise_above",
       .fallback = defaults.relinearise_above,

@@ -82,7 +82,7 @@ TEST(CommandLine, AReplayTakesTheEstimatorsThatItIsTold) {
   EXPECT_NE(read_file(folder / "runs" / "small-replay" / "ekf.tum"), read_file(folder / "run" / "ekf.tum"));
 }
 
-TEST(CommandLine, ALogWithoutWorldRunsTheBaselineAndTheReportsFilter) {
+TEST(CommandLine, ALogWithoutWorldRunsTheBaselineTheReportsFilterAndOurs) {
   const TemporaryFolder folder;
   write_world(folder);
   call(folder, "run world.yaml --quiet --out run");
@@ -90,8 +90,8 @@ TEST(CommandLine, ALogWithoutWorldRunsTheBaselineAndTheReportsFilter) {
   const Called replay = call(folder, "replay run --json --seed 5");
   EXPECT_EQ(replay.exit_code, 0) << replay.errors;
   const nlohmann::json estimators = nlohmann::json::parse(replay.output).at("estimators");
-  EXPECT_EQ(estimators.size(), 2U);
-  EXPECT_TRUE(estimators.contains("ekf") && estimators.contains("seif_report"));
+  EXPECT_EQ(estimators.size(), 3U);
+  for (const char* name : {"ekf", "seif", "seif_report"}) EXPECT_TRUE(estimators.contains(name)) << name;
 }
 
 /// Without what was measured with a clock.

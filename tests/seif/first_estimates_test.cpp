@@ -93,23 +93,38 @@ struct DenseFirstEstimates {
     const PredictedPose predicted = predict_pose(pose(), u);
     const auto n = Omega.rows();
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
-    F(0, 2) = -(predicted.pose.y - at(1));
-    F(1, 2) = predicted.pose.x - at(0);
+    mu.head<3>() << predicted.pose.x, predicted.pose.y, predicted.pose.theta;
+    const Eigen::Vector3d to = pose_among_first_estimates();
+    F(0, 2) = -(to(1) - at(1));
+    F(1, 2) = to(0) - at(0);
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(n, n);
     noise.topLeftCorner<3, 3>() = predicted.noise_factor * predicted.noise_factor.transpose();
     Omega = (F * Omega.inverse() * F.transpose() + noise).inverse();
-    mu.head<3>() << predicted.pose.x, predicted.pose.y, predicted.pose.theta;
-    at.head<3>() = mu.head<3>();
+    at.head<3>() = to;
   }
 
-  /// J' at the first estimates (n x 2).
+  /// Where the robot is once the means of the landmarks are brought upon their first estimates.
+  Eigen::Vector3d pose_among_first_estimates() const {
+    const auto landmarks = static_cast<Eigen::Index>(ids.size());
+    if (landmarks < 2) return mu.head<3>();
+    const auto points = [&](const Eigen::VectorXd& all) {
+      return Eigen::MatrixXd(Eigen::Map<const Eigen::Matrix2Xd>(all.data() + 3, 2, landmarks));
+    };
+    const Eigen::Matrix3d T = Eigen::umeyama(points(mu), points(at), false);
+    Eigen::Vector3d there = T * Eigen::Vector3d(mu(0), mu(1), 1.0);
+    there(2) = wrap_angle(mu(2) + std::atan2(T(1, 0), T(0, 0)));
+    return there;
+  }
+
+  /// J' at the mean (n x 2), but that turning all about the robot turns the first estimates.
   Eigen::MatrixXd slopes(int slot) const {
     const int row = InformationState::row_of(slot);
-    const PredictedObservation there =
-        predict_observation({at(0), at(1), at(2)}, T_robot_sensor, at.segment<2>(row));
+    const PredictedObservation there = predict_observation(pose(), T_robot_sensor, mu.segment<2>(row));
+    const Eigen::Vector2d lever = at.segment<2>(row) - at.head<2>();
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(Omega.rows(), 2);
     C.topRows<3>() = there.J_wrt_pose.transpose();
     C.middleRows<2>(row) = there.J_wrt_landmark.transpose();
+    C.row(2) = lever.y() * C.row(row) - lever.x() * C.row(row + 1);
     return C;
   }
 

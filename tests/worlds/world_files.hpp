@@ -40,6 +40,7 @@ class Folder {
 inline EstimatorSchemas fake_estimators() {
   EstimatorSchemas schemas;
   schemas["ekf"] = [](Fields&, std::map<std::string, OptionValue>&) {};
+  schemas["seif"] = schemas["ekf"];
   schemas["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
     std::int64_t theta_x = 6;
     std::int64_t recovered = 10;
