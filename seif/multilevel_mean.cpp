@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_landmarks = 10;  // [-] in a group of level 1
 constexpr int most_groups = 5;      // [-] in a group of another level
-constexpr double singular = 1e-9;   // [-] reciprocal condition from which a group is held to float freely
+constexpr double singular = 1e-9;   // [-] share of a motion's information that no other explains, to count
 
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
@@ -28,6 +28,12 @@ Eigen::Matrix3d group_in_group(const Eigen::Vector2d& lever) {
   Eigen::Matrix3d T = Eigen::Matrix3d::Identity();
   T.topRightCorner<2, 1>() << -lever.y(), lever.x();
   return T;
+}
+
+/// Whether a group's equations A, with factor L, tell of each of its motions where it belongs.
+bool is_regular(const Eigen::Matrix3d& A, const Eigen::LLT<Eigen::Matrix3d>& L) {
+  return L.info() == Eigen::Success &&
+         (L.matrixLLT().diagonal().array().square() > singular * A.diagonal().array()).all();
 }
 
 void grow(Eigen::MatrixXd& matrix, Eigen::Index size) {
@@ -216,7 +222,8 @@ void MultilevelMean::pass_forces_on() {
       g.has_forces = false;
       if (g.level == 1) {
         const Eigen::Vector3d R = residual_force(i);
-        note_residual(i, R.dot(Eigen::LDLT<Eigen::Matrix3d>(g.A).solve(R)));
+        const Eigen::LLT<Eigen::Matrix3d> A(g.A);
+        note_residual(i, is_regular(g.A, A) ? R.dot(A.solve(R)) : 0.0);
       }
     }
     groups.clear();
@@ -345,8 +352,8 @@ void MultilevelMean::note_residual(int i, double residual) {
 /// look, those above in the next update.
 void MultilevelMean::relax(int i) {
   Group& g = group(i);
-  const Eigen::LDLT<Eigen::Matrix3d> A(g.A);
-  if (A.info() != Eigen::Success || !A.isPositive() || A.rcond() < singular) return;
+  const Eigen::LLT<Eigen::Matrix3d> A(g.A);
+  if (!is_regular(g.A, A)) return;
   const Eigen::Vector3d R = residual_force(i);
   const Eigen::Vector3d step = A.solve(R);
   const double left = 1.0 - options_.over_correction;

@@ -9,6 +9,7 @@
 #include "ring_drive.hpp"
 #include "seif/ekf.hpp"
 #include "seif/report_seif.hpp"
+#include "seif/seif.hpp"
 #include "seif/symmetric_downdate.hpp"
 
 namespace seif {
@@ -56,6 +57,48 @@ BENCHMARK(seif_report_update)
     ->Arg(100'000)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
+
+void seif_update(benchmark::State& state) { update<Seif>(state, SeifOptions{}); }
+BENCHMARK(seif_update)
+    ->Arg(50)
+    ->Arg(200)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(100'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
+/// One step of an update of seif, all else as in update().
+void seif_step(benchmark::State& state, Stage step) {
+  using Clock = std::chrono::steady_clock;
+  RingDrive drive(static_cast<int>(state.range(0)), 1);
+  Seif filter(drive.setup(), {});
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
+  Clock::time_point begin;
+  std::chrono::duration<double> time{};
+  const StageDone done = [&](Stage stage) {
+    const Clock::time_point now = Clock::now();
+    if (stage == step) time = now - begin;
+    begin = now;
+  };
+  for (auto _ : state) {
+    drive.advance();
+    begin = Clock::now();
+    filter.motion_update(drive.odometry());
+    done(Stage::motion);
+    filter.measurement_update(drive.scan(), done);
+    state.SetIterationTime(time.count());
+  }
+}
+
+void seif_motion(benchmark::State& state) { seif_step(state, Stage::motion); }
+void seif_measurement(benchmark::State& state) { seif_step(state, Stage::measurement); }
+void seif_sparsification(benchmark::State& state) { seif_step(state, Stage::sparsification); }
+void seif_mean_recovery(benchmark::State& state) { seif_step(state, Stage::mean_recovery); }
+BENCHMARK(seif_motion)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_measurement)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_sparsification)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_mean_recovery)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
 
 /// W of 16 columns, as eight observations give.
 Eigen::MatrixXd thin_matrix(Eigen::Index rows) {
