@@ -101,8 +101,8 @@ std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
 seif::EstimatorType batch_estimator(const seif::Registry& registry) {
   const seif::OptionSpec guide{
       .key = "guide",
-      .fallback = std::string("ekf"),
-      .choices = {"ekf", "seif_gauge_free"},
+      .fallback = std::string("seif"),
+      .choices = {"seif", "ekf"},
       .help = "The filter that runs along, and from whose map the optimum is sought."};
   return {.name = "batch",
           .help =
