@@ -1,7 +1,7 @@
 # Draws a run folder: the way that was driven and the maps that came of it, with their 2-sigma ellipses.
 #   gnuplot -e "run='runs/courtyard-1'; out='courtyard.png'" docs/plot_run.gp
 # Colours: Okabe and Ito's palette, which the colour-blind can tell apart.
-set terminal pngcairo size 1400,720 font "DejaVu Sans,11" background "white"
+set terminal pngcairo size 1800,640 font "DejaVu Sans,11" background "white"
 set output out
 set datafile separator ","
 set size ratio -1
@@ -23,9 +23,9 @@ tum(name) = sprintf("< awk '/^[^#]/ {print $2 \",\" $3}' %s/%s.tum", run, name)
 map(name) = sprintf("%s/%s_map.csv", run, name)
 landmarks = run . "/landmarks.csv"
 
-set multiplot layout 1,2
-do for [estimator in "ekf seif_report"] {
-  colour = estimator eq "ekf" ? "#0072B2" : "#D55E00"
+set multiplot layout 1,3
+do for [estimator in "ekf seif seif_report"] {
+  colour = estimator eq "ekf" ? "#0072B2" : estimator eq "seif" ? "#009E73" : "#D55E00"
   set title estimator noenhanced font ",14" offset 0,-0.3
   plot tum("odometry") with lines lw 1 lc "#AAAAAA" title "odometry", \
        tum("truth") with lines lw 2 lc "#000000" title "truth", \

@@ -253,6 +253,7 @@ void MultilevelMean::add_information(int i, int j, const Eigen::Matrix3d& A) {
 
 void MultilevelMean::before_information(const InformationState& state) {
   active_before_ = state.active_count();
+  if (active_before_ == 0) return;
   blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_before_);
 }
@@ -263,8 +264,8 @@ void MultilevelMean::after_information(const InformationState& state) {
   if (state.active_count() == 0) return;
   blocks_touched_ += state.window_blocks();
   without_robot(state, half_, D_after_);
-  D_after_.topLeftCorner(2 * active_before_, 2 * active_before_) -=
-      D_before_.topLeftCorner(2 * active_before_, 2 * active_before_);
+  const int before = 2 * active_before_;
+  if (before > 0) D_after_.topLeftCorner(before, before) -= D_before_.topLeftCorner(before, before);
   gather_groups_of_window(state);
   auto size = 3 * static_cast<Eigen::Index>(near_.size());
   grow(change_, size);

@@ -20,8 +20,8 @@ struct SeifOptions {
   double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
   /// [-] An observation is linearised at what was measured where that lies farther from where the landmark is
   /// believed to be than so many times the measured range: the direction to it is useless then.
-  /// 0: never. It did no good on rings of 500 m to 2 km, and costs consistency.
-  double closing_gate = 0.0;
+  /// As on a long ring that closes. 0: never.
+  double closing_gate = 0.5;
   bool exact_mean = false;  // by sparse Cholesky, not in constant time
   MultilevelOptions multilevel = {};
 };

@@ -95,10 +95,30 @@ void seif_motion(benchmark::State& state) { seif_step(state, Stage::motion); }
 void seif_measurement(benchmark::State& state) { seif_step(state, Stage::measurement); }
 void seif_sparsification(benchmark::State& state) { seif_step(state, Stage::sparsification); }
 void seif_mean_recovery(benchmark::State& state) { seif_step(state, Stage::mean_recovery); }
-BENCHMARK(seif_motion)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(seif_measurement)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(seif_sparsification)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
-BENCHMARK(seif_mean_recovery)->Arg(1000)->Arg(20'000)->UseManualTime()->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_motion)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Iterations(10'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_measurement)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Iterations(10'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_sparsification)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Iterations(10'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(seif_mean_recovery)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Iterations(10'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
 
 /// W of 16 columns, as eight observations give.
 Eigen::MatrixXd thin_matrix(Eigen::Index rows) {
