@@ -36,6 +36,12 @@ bool is_regular(const Eigen::Matrix3d& A, const Eigen::LLT<Eigen::Matrix3d>& L) 
          (L.matrixLLT().diagonal().array().square() > singular * A.diagonal().array()).all();
 }
 
+/// The one whose turn it is.
+template <class Array>
+int next_of(const Array& groups, std::size_t& turn) {
+  return groups[turn++ % groups.size()];
+}
+
 void grow(Eigen::MatrixXd& matrix, Eigen::Index size) {
   if (matrix.rows() < size) matrix.resize(2 * size, 2 * size);
 }
@@ -416,16 +422,14 @@ bool MultilevelMean::correct(InformationState& state) {
     gather_groups_of_window(state);
     for (int below = 1; below < level; ++below) go_up();
     for (const int i : near_) relax(i);
-    const std::vector<int>& all = levels_[static_cast<std::size_t>(level - 1)];
+    const ChunkedArray<int>& all = levels_[static_cast<std::size_t>(level - 1)];
     std::size_t& turn = turn_[static_cast<std::size_t>(level - 1)];
-    for (int k = 0; k < options_.other_groups; ++k) relax(all[turn++ % all.size()]);
+    for (int k = 0; k < options_.other_groups; ++k) relax(next_of(all, turn));
   }
   carry_window(state);
   gather_groups_of_window(state);
   for (int k = 0; k < options_.relaxed_groups; ++k) {
-    const std::vector<int>& groups = k == 0 ? near_ : levels_.front();
-    std::size_t& turn = k == 0 ? near_turn_ : any_turn_;
-    relax_landmarks(state, groups[turn++ % groups.size()]);
+    relax_landmarks(state, k == 0 ? next_of(near_, near_turn_) : next_of(levels_.front(), any_turn_));
   }
   for (int p = 0; p < state.active_count(); ++p) {  // will be solved for, as above
     const int slot = state.active(p);
@@ -436,7 +440,7 @@ bool MultilevelMean::correct(InformationState& state) {
 
 std::size_t MultilevelMean::memory_bytes() const {
   std::size_t bytes = groups_.memory_bytes() + members_.memory_bytes();
-  for (const std::vector<int>& level : levels_) bytes += level.capacity() * sizeof(int);
+  for (const ChunkedArray<int>& level : levels_) bytes += level.memory_bytes();
   for (std::size_t i = 0; i < groups_.size(); ++i) bytes += groups_[i].links.capacity() * sizeof(Link);
   return bytes;
 }

@@ -132,7 +132,7 @@ class MultilevelMean {
   mutable ChunkedArray<Group> groups_;  // mutable for cached totals
   ChunkedArray<Member> members_;        // by slot
   int root_ = -1;
-  std::vector<std::vector<int>> levels_;       // groups, by level - 1
+  std::vector<ChunkedArray<int>> levels_;      // groups, by level - 1
   std::vector<std::size_t> turn_;              // whose turn it is, by level - 1
   std::vector<std::vector<int>> have_forces_;  // groups, by level - 1
   std::size_t near_turn_ = 0;
