@@ -39,9 +39,9 @@ struct Counts {
 
   // Diagnostics that cost constant time; nothing from filters that do not have them.
 
-  /// [-] Sum of r_i' Omega_ii^-1 r_i over blocks i: how far the mean is from the filter's own Omega^-1 xi.
-  /// Divided by one and the most neighbours that a block has, it is no more than the squared error of the
-  /// mean in units of sigma, r' Omega^-1 r.
+  /// [-] Sum of r_i' Omega_ii^-1 r_i over blocks i, each as it was when last touched: how far the mean is
+  /// from the filter's own Omega^-1 xi. Divided by one and the most neighbours that a block has, it is no
+  /// more than the squared error of the mean in units of sigma, r' Omega^-1 r.
   std::optional<double> mean_residual = {};
   /// [nat] Anchoring to the world frame that the sparsifications so far have left out, as sparsify() returns
   /// it.

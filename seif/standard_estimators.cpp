@@ -124,7 +124,8 @@ EstimatorType seif() {
       .help = "Groups of about ten landmarks whose landmarks an update relaxes one by one [-]."};
   return {
       .name = "seif",
-      .help = "Ours: gauge-free sparsification, first-estimates Jacobians, multilevel mean; constant time.",
+      .help =
+          "Ours: gauge-free sparsification, null space from first estimates, multilevel mean; constant time.",
       .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
                   other_groups, relaxed_groups},
       .make = [=](const EstimatorSetup& setup, const Options& options) {
