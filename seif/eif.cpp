@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <stdexcept>
 
+#include "seif/couplings.hpp"
 #include "seif/models.hpp"
 
 namespace seif {
@@ -87,6 +88,17 @@ Counts Eif::counts() const {
 std::size_t Eif::memory_bytes() const {
   return static_cast<std::size_t>(Omega_.size() + mu_.size()) * sizeof(double) +
          ids_.capacity() * sizeof(LandmarkId) + index_.memory_bytes();
+}
+
+void Eif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
+  out.clear();
+  for (const LandmarkId landmark : landmarks) {
+    if (const auto slot = index_.find(landmark)) out.push_back({landmark, mu_.segment<2>(row_of(*slot))});
+  }
+}
+
+void Eif::couplings(LandmarkId of, std::vector<Coupling>& out) const {
+  couplings_of(Omega_, index_, ids_, of, out);
 }
 
 std::vector<LandmarkEstimate> Eif::map() const {

@@ -21,6 +21,9 @@ class Eif final : public Estimator {
   Pose2 pose() const override { return {mu_(0), mu_(1), mu_(2)}; }
   Counts counts() const override;
   std::size_t memory_bytes() const override;
+  void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
+  BeliefMatrix belief_matrix() const override { return BeliefMatrix::information; }
+  void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;

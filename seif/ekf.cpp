@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "seif/couplings.hpp"
 #include "seif/models.hpp"
 
 namespace seif {
@@ -150,6 +151,17 @@ std::size_t Ekf::memory_bytes() const {
   const auto doubles = mu_.size() + Sigma_.size() + columns_.size() + W_.size() + S_.size() + v_.size();
   return static_cast<std::size_t>(doubles) * sizeof(double) + ids_.capacity() * sizeof(LandmarkId) +
          index_.memory_bytes();
+}
+
+void Ekf::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
+  out.clear();
+  for (const LandmarkId landmark : landmarks) {
+    if (const auto slot = index_.find(landmark)) out.push_back({landmark, mu_.segment<2>(row_of(*slot))});
+  }
+}
+
+void Ekf::couplings(LandmarkId of, std::vector<Coupling>& out) const {
+  couplings_of(Sigma_.topLeftCorner(size(), size()), index_, ids_, of, out);
 }
 
 std::vector<LandmarkEstimate> Ekf::map() const {

@@ -23,6 +23,9 @@ class Ekf final : public Estimator {
   std::optional<Eigen::Matrix3d> pose_covariance() const override;
   Counts counts() const override;
   std::size_t memory_bytes() const override;
+  void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
+  BeliefMatrix belief_matrix() const override { return BeliefMatrix::covariance; }
+  void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;

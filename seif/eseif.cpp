@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
@@ -73,6 +74,12 @@ Counts Eseif::counts() const {
           .links = state_.link_count(),
           .relocations = relocations_};
 }
+
+void Eseif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
+  landmarks_of(state_, landmarks, out);
+}
+
+void Eseif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
 std::vector<LandmarkEstimate> Eseif::map() const { return map_of(state_); }
 

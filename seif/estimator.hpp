@@ -60,6 +60,15 @@ struct MarginalCovariances {
   std::vector<Eigen::Matrix2d> landmarks;          // (2 x 2) each [m^2]
 };
 
+/// What a filter keeps of how things go together.
+enum class BeliefMatrix { none, information, covariance };
+
+/// An off-diagonal block of that matrix.
+struct Coupling {
+  LandmarkId other = no_landmark;  // no_landmark: the robot
+  double strength = 0.0;           // [-] in [0, 1]: the largest |M_ab| / sqrt(M_aa M_bb) in it
+};
+
 /// Thrown by a filter whose belief is no longer a proper Gaussian: it has diverged or lost its precision.
 class NumericalFailure : public std::runtime_error {
  public:
@@ -91,6 +100,19 @@ class Estimator {
 
   /// What the filter's state occupies. [byte]
   virtual std::size_t memory_bytes() const = 0;
+
+  /// The means of those of `landmarks` that are in the map, in the order asked for, which may be any;
+  /// replaces what `out` held. Filters whose work does not grow with the map do this in O(log N) for each; by
+  /// default it costs a whole map().
+  virtual void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const;
+
+  /// Which matrix couplings() tells of.
+  virtual BeliefMatrix belief_matrix() const { return BeliefMatrix::none; }
+
+  /// The off-diagonal blocks that are not zero in the row of a landmark, or of the robot (no_landmark); none
+  /// for a landmark that is not in the map. Replaces what `out` held; in any order. The work grows with the
+  /// length of that row alone.
+  virtual void couplings(LandmarkId /*of*/, std::vector<Coupling>& out) const { out.clear(); }
 
   /// Off the live path, at any cost: the whole map, in the order in which the landmarks joined it.
   virtual std::vector<LandmarkEstimate> map() const = 0;

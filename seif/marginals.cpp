@@ -9,6 +9,14 @@ namespace seif {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
+using Factor = Eigen::SimplicialLLT<Sparse, Eigen::Lower>;  // P A P' = L L'
+
+/// [-] So many landmarks cost less one by one than by inverting the whole pattern, even in a long ring, whose
+/// elimination tree is as high as it is long.
+constexpr std::size_t few = 64;
+
+template <int size>
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, size, Eigen::RowMajor>;
 
 /// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
 /// column j:
@@ -50,10 +58,48 @@ void invert_on_pattern(Sparse& L) {
   }
 }
 
+/// The block of A^-1 on the diagonal whose first row is `row`: W' W with W = L^-1 P E, E being these columns
+/// of the identity. Of the rows of W only those are not zero that lie on the way from the first of its own up
+/// the elimination tree; its other own rows do too, since A links them all. `W` (n x size) is zero, and is
+/// again afterwards.
+template <int size>
+Eigen::Matrix<double, size, size> block_of_inverse(const Factor& factor, int row, Rows<size>& W) {
+  const Sparse& L = factor.matrixL().nestedExpression();
+  const auto own = factor.permutationP().indices().segment<size>(row);
+  for (int i = 0; i < size; ++i) W(own(i), i) = 1.0;
+  Eigen::Matrix<double, size, size> block = Eigen::Matrix<double, size, size>::Zero();
+  for (int j = own.minCoeff(); j >= 0;) {
+    Sparse::InnerIterator entry(L, j);  // the diagonal comes first
+    const Eigen::Matrix<double, 1, size> w = W.row(j) / entry.value();
+    W.row(j).setZero();
+    block += w.transpose() * w;
+    ++entry;
+    j = entry ? static_cast<int>(entry.row()) : -1;  // the parent
+    for (; entry; ++entry) W.row(entry.row()) -= entry.value() * w;
+  }
+  return block;
+}
+
+/// For a few landmarks of a large map: at the cost of the factor and one way up the elimination tree for
+/// each.
+std::optional<MarginalCovariances> marginals_of_few(const InformationState& state,
+                                                    std::span<const LandmarkId> landmarks) {
+  const Factor factor(state.full_Omega());
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  Rows<3> W_pose = Rows<3>::Zero(factor.rows(), 3);
+  Rows<2> W = Rows<2>::Zero(factor.rows(), 2);
+  MarginalCovariances marginals{.pose = block_of_inverse<3>(factor, 0, W_pose), .landmarks = {}};
+  for (const LandmarkId landmark : landmarks) {
+    const int row = InformationState::row_of(state.find(landmark).value());
+    marginals.landmarks.push_back(block_of_inverse<2>(factor, row, W));
+  }
+  return marginals;
+}
+
 }  // namespace
 
 std::optional<DiagonalBlocksOfInverse> DiagonalBlocksOfInverse::of(const Sparse& A) {
-  const Eigen::SimplicialLLT<Sparse, Eigen::Lower> llt(A);
+  const Factor llt(A);
   if (llt.info() != Eigen::Success) return std::nullopt;
   DiagonalBlocksOfInverse inverse;
   inverse.permuted_ = llt.permutationP().indices();
@@ -79,8 +125,19 @@ std::vector<LandmarkEstimate> map_of(const InformationState& state) {
   return map;
 }
 
+void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
+                  std::vector<LandmarkEstimate>& out) {
+  out.clear();
+  for (const LandmarkId landmark : landmarks) {
+    if (const auto slot = state.find(landmark)) out.push_back({landmark, state.mean(*slot)});
+  }
+}
+
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
+  if (landmarks.size() <= few && landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
+    return marginals_of_few(state, landmarks);
+  }
   const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(state.full_Omega());
   if (!Sigma) return std::nullopt;
   MarginalCovariances marginals{.pose = Sigma->block<3>(0), .landmarks = {}};

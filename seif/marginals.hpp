@@ -39,7 +39,11 @@ class DiagonalBlocksOfInverse {
 /// All means, in the order of the slots.
 std::vector<LandmarkEstimate> map_of(const InformationState& state);
 
-/// As Estimator::marginal_covariances.
+/// As Estimator::landmarks, in constant time for each.
+void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
+                  std::vector<LandmarkEstimate>& out);
+
+/// As Estimator::marginal_covariances. For a few landmarks little more than the factorisation.
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
@@ -53,6 +54,12 @@ Counts ReportSeif::counts() const {
           .mean_residual = state_.squared_residual(),
           .anchoring = anchoring_};
 }
+
+void ReportSeif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
+  landmarks_of(state_, landmarks, out);
+}
+
+void ReportSeif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
 std::vector<LandmarkEstimate> ReportSeif::map() const { return map_of(state_); }
 

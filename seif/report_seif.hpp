@@ -44,6 +44,9 @@ class ReportSeif final : public Estimator {
   Pose2 pose() const override { return state_.pose(); }
   Counts counts() const override;
   std::size_t memory_bytes() const override { return state_.memory_bytes(); }
+  void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
+  BeliefMatrix belief_matrix() const override { return BeliefMatrix::information; }
+  void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/motion_update.hpp"
@@ -145,6 +146,15 @@ Counts Seif::counts() const {
           .mean_residual = options_.exact_mean ? std::nullopt : std::optional(mean_.residual()),
           .anchoring = anchoring_};
 }
+
+void Seif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
+  out.clear();
+  for (const LandmarkId landmark : landmarks) {
+    if (const auto slot = state_.find(landmark)) out.push_back({landmark, mean_.mean(state_, *slot)});
+  }
+}
+
+void Seif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
 std::vector<LandmarkEstimate> Seif::map() const {
   std::vector<LandmarkEstimate> map;

@@ -10,6 +10,7 @@
 
 #include "allocation_counter.hpp"
 #include "ring_drive.hpp"
+#include "seif/couplings.hpp"
 #include "seif/information_state.hpp"
 #include "seif/measurement_update.hpp"
 #include "seif/motion_update.hpp"
@@ -145,6 +146,30 @@ TEST(CountedWork, ChooseToDropAllocatesNothing) {
     corridor.choose_surplus();
     EXPECT_EQ(allocations(), before);
   }
+}
+
+/// How many couplings the robot and some landmarks have: active ones, passive ones with links to them, and
+/// one in the middle of the map. Reads them again, for which nothing may be allocated or counted.
+std::vector<std::size_t> read_couplings(const InformationState& state) {
+  const int end = state.landmark_count();
+  std::vector<Coupling> couplings;
+  std::vector<std::size_t> sizes;
+  for (const LandmarkId of : {no_landmark, end - 1, end - 6, end - 7, end - 8, end / 2}) {
+    couplings_of(state, of, couplings);
+    sizes.push_back(couplings.size());
+    EXPECT_GT(couplings.size(), 0U);
+    const Work before{state.blocks_touched(), allocations()};
+    couplings_of(state, of, couplings);
+    EXPECT_EQ(state.blocks_touched(), before.blocks);
+    EXPECT_EQ(allocations(), before.allocations);
+  }
+  return sizes;
+}
+
+TEST(CountedWork, CouplingsAreAsManyInALargeMapAndReadingThemAllocatesNothing) {
+  Corridor in_small(small_map);
+  Corridor in_large(large_map);
+  EXPECT_EQ(read_couplings(in_large.state()), read_couplings(in_small.state()));
 }
 
 }  // namespace

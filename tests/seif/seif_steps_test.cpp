@@ -231,6 +231,30 @@ TEST_P(SeifSteps, MarginalsAreBlocksOfTheDenseInverse) {
   }
 }
 
+TEST_P(SeifSteps, MarginalsOfAFewLandmarksAreThoseOfAll) {
+  std::vector<LandmarkId> landmarks;
+  for (int slot = 0; slot < state.landmark_count(); ++slot) landmarks.push_back(state.id(slot));
+  const auto all = marginals_of(state, landmarks);
+  ASSERT_TRUE(all);
+  for (std::size_t few = 0; few < landmarks.size(); ++few) {  // the last ones, in reverse
+    const std::vector<LandmarkId> asked_for(landmarks.rbegin(),
+                                            landmarks.rbegin() + static_cast<std::ptrdiff_t>(few));
+    const auto some = marginals_of(state, asked_for);
+    ASSERT_TRUE(some);
+    EXPECT_LT(relative(some->pose, all->pose), 1e-9);
+    ASSERT_EQ(some->landmarks.size(), few);
+    for (std::size_t i = 0; i < few; ++i) {
+      EXPECT_LT(relative(some->landmarks[i], all->landmarks[landmarks.size() - 1 - i]), 1e-9);
+    }
+  }
+}
+
+TEST_P(SeifSteps, MarginalsOfAFewLandmarksAreNothingWhereOmegaIsIndefinite) {
+  state.Omega()(0, 0) = -1.0;
+  const std::vector<LandmarkId> one{state.id(0)};
+  EXPECT_FALSE(marginals_of(state, one));
+}
+
 TEST_P(SeifSteps, LinkCountIsThatOfTheDenseMatrix) {
   const Eigen::MatrixXd H = oracle::symmetric(state.full_Omega());
   int links = 0;
