@@ -267,6 +267,19 @@ void InformationState::move_window(const Eigen::Ref<const Eigen::VectorXd>& d) {
   }
 }
 
+void InformationState::move_window(const Eigen::Ref<const Eigen::VectorXd>& d,
+                                   const Eigen::Ref<const Eigen::VectorXd>& dr) {
+  mu_.head(window_size()) += d;
+  mu_(2) = wrap_angle(mu_(2));
+  r() -= dr;
+  touch(active_count() + 1);
+}
+
+void InformationState::set_mean(int slot, const Eigen::Vector2d& mean) {
+  assert(position(slot) == none);
+  landmarks_[index(slot)].mu = mean;
+}
+
 /// Of a passive landmark whose r has changed.
 void InformationState::note_residual(Landmark& landmark) {
   if (!tracks_residual_) return;

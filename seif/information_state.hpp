@@ -117,6 +117,13 @@ class InformationState {
   /// linked to it.
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d);
 
+  /// The same where all passive landmarks follow, each to where its own r stays: the window's r loses `dr`
+  /// (w x 1), no other r changes, and the caller keeps the means of the passive landmarks.
+  void move_window(const Eigen::Ref<const Eigen::VectorXd>& d, const Eigen::Ref<const Eigen::VectorXd>& dr);
+
+  /// The mean of a passive landmark; the caller keeps r.
+  void set_mean(int slot, const Eigen::Vector2d& mean);
+
   /// From now on squared_residual() is kept up to date wherever r changes. Before the first landmark joins.
   void track_residual() { tracks_residual_ = true; }
   /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks, in constant time. [-]

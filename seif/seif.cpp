@@ -19,6 +19,8 @@ Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
     : options_(options),
       state_(setup.start),
       mean_(options.multilevel),
+      tree_(options.tree),
+      by_tree_(options.mean_recovery == SeifMean::tree),
       T_robot_sensor_(setup.T_robot_sensor) {
   if (options_.first_estimates > 0) state_.use_first_estimates(options_.first_estimates);
 }
@@ -28,12 +30,12 @@ void Seif::motion_update(const Odometry& odometry) { seif::motion_update(state_,
 void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   state_.begin_scan();
   activate_known(scan);
-  mean_.before_information(state_);
+  if (!by_tree_) mean_.before_information(state_);
   add_known(scan);
   solve_window(scan.t);
   if (options_.first_estimates == 0) relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
-  mean_.after_information(state_);
+  if (!by_tree_) mean_.after_information(state_);
   state_.update_first_estimates();
   done(Stage::measurement);
 
@@ -45,12 +47,25 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
 }
 
 void Seif::activate_known(const Scan& scan) {
+  seen_.clear();
   for (const Observation& observation : scan.observations) {
-    const std::optional<int> slot = state_.find(observation.landmark);
-    if (!slot) continue;
-    if (state_.position(*slot) < 0) mean_.activate(state_, *slot);
-    state_.mark_seen(*slot);
+    if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
+  if (by_tree_) activate_by_tree(scan.t);
+  for (const int slot : seen_) {
+    if (state_.position(slot) < 0) mean_.activate(state_, slot);
+    state_.mark_seen(slot);
+  }
+}
+
+/// A tree that has grown too wide hands over to the groups, once and for all, at the cost of a pass over the
+/// map.
+void Seif::activate_by_tree(double t) {
+  if (tree_.activate(state_, seen_)) return;
+  if (!tree_.is_overgrown()) throw NumericalFailure("activation", t);
+  tree_.write_means(state_);
+  mean_.take_in(state_);
+  by_tree_ = false;
 }
 
 /// All linearised before the first is added.
@@ -110,6 +125,7 @@ bool Seif::add_new(const Scan& scan) {
           observation.landmark,
           invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark);
       mean_.join(state_, *slot);
+      if (by_tree_) tree_.join(state_, *slot);
       state_.mark_seen(*slot);
     }
     add(state_, linearise(state_, *slot, observation, T_robot_sensor_));
@@ -118,7 +134,9 @@ bool Seif::add_new(const Scan& scan) {
 }
 
 void Seif::solve_window(double t) {
-  if (!mean_.solve_window(state_)) throw NumericalFailure("local solve", t);
+  if (!(by_tree_ ? tree_.solve_window(state_) : mean_.solve_window(state_))) {
+    throw NumericalFailure("local solve", t);
+  }
 }
 
 /// In a burst: that costs less, and keeps more, than holding the bound at each update.
@@ -130,27 +148,40 @@ void Seif::sparsify(double t) {
   const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
   if (!anchoring) throw NumericalFailure("sparsification", t);
   anchoring_ += *anchoring;
+  if (by_tree_ && !tree_.deactivate(state_, to_drop_)) throw NumericalFailure("sparsification", t);
 }
 
-/// With the exact mean the groups never move, and stay out of the way.
+/// With the tree the local solution is that of all. With the exact mean the groups never move, and stay out
+/// of the way.
 void Seif::recover_mean(double t) {
-  if (!(options_.exact_mean ? solve_mean(state_) : mean_.correct(state_))) {
+  if (by_tree_) return solve_window(t);
+  if (!(options_.mean_recovery == SeifMean::exact ? solve_mean(state_) : mean_.correct(state_))) {
     throw NumericalFailure("mean recovery", t);
   }
 }
 
+Eigen::Vector2d Seif::mean(int slot) const {
+  return by_tree_ ? tree_.mean(state_, slot) : mean_.mean(state_, slot);
+}
+
+std::size_t Seif::memory_bytes() const {
+  return state_.memory_bytes() + mean_.memory_bytes() + tree_.memory_bytes();
+}
+
 Counts Seif::counts() const {
-  return {.blocks_touched = state_.blocks_touched() + mean_.blocks_touched(),
+  return {.blocks_touched = state_.blocks_touched() + mean_.blocks_touched() + tree_.blocks_touched(),
           .active_landmarks = state_.active_count(),
           .links = state_.link_count(),
-          .mean_residual = options_.exact_mean ? std::nullopt : std::optional(mean_.residual()),
+          .mean_residual = by_tree_ || options_.mean_recovery == SeifMean::exact
+                               ? std::nullopt
+                               : std::optional(mean_.residual()),
           .anchoring = anchoring_};
 }
 
 void Seif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
   out.clear();
   for (const LandmarkId landmark : landmarks) {
-    if (const auto slot = state_.find(landmark)) out.push_back({landmark, mean_.mean(state_, *slot)});
+    if (const auto slot = state_.find(landmark)) out.push_back({landmark, mean(*slot)});
   }
 }
 
@@ -159,7 +190,7 @@ void Seif::couplings(LandmarkId of, std::vector<Coupling>& out) const { coupling
 std::vector<LandmarkEstimate> Seif::map() const {
   std::vector<LandmarkEstimate> map;
   for (int slot = 0; slot < state_.landmark_count(); ++slot) {
-    map.push_back({state_.id(slot), mean_.mean(state_, slot)});
+    map.push_back({state_.id(slot), mean(slot)});
   }
   return map;
 }

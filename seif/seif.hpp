@@ -3,12 +3,20 @@
 
 #include <vector>
 
+#include "seif/condensation_tree.hpp"
 #include "seif/estimator.hpp"
 #include "seif/information_state.hpp"
 #include "seif/multilevel_mean.hpp"
 #include "seif/observation_factor.hpp"
 
 namespace seif {
+
+/// Where Seif gets its mean from.
+enum class SeifMean {
+  multilevel,  // rigid groups of landmarks, MultilevelMean: constant time, on its way to the exact mean
+  tree,        // CondensationTree: exact, until a map has grown too wide for it; from then on multilevel
+  exact        // sparse Cholesky: exact, not in constant time
+};
 
 struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
@@ -22,8 +30,9 @@ struct SeifOptions {
   /// believed to be than so many times the measured range: the direction to it is useless then.
   /// As on a long ring that closes. 0: never.
   double closing_gate = 0.5;
-  bool exact_mean = false;  // by sparse Cholesky, not in constant time
+  SeifMean mean_recovery = SeifMean::multilevel;
   MultilevelOptions multilevel = {};
+  CondensationOptions tree = {};
 };
 
 /// What it does otherwise than the report's filter:
@@ -32,7 +41,8 @@ struct SeifOptions {
 /// - takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes;
 /// - sparsifies by the gauge-free rule, in bursts, and never what is in view (sparsification);
-/// - moves groups of landmarks of every size, each update a few (multilevel_mean).
+/// - moves groups of landmarks of every size, each update a few (multilevel_mean), or condenses all that is
+///   not near the robot along a tree (condensation_tree).
 class Seif final : public Estimator {
  public:
   Seif(const EstimatorSetup& setup, const SeifOptions& options);
@@ -41,7 +51,7 @@ class Seif final : public Estimator {
   void measurement_update(const Scan& scan, const StageDone& done) override;
   Pose2 pose() const override { return state_.pose(); }
   Counts counts() const override;
-  std::size_t memory_bytes() const override { return state_.memory_bytes() + mean_.memory_bytes(); }
+  std::size_t memory_bytes() const override;
   void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
   BeliefMatrix belief_matrix() const override { return BeliefMatrix::information; }
   void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
@@ -52,7 +62,9 @@ class Seif final : public Estimator {
   const InformationState& state() const { return state_; }
 
  private:
+  Eigen::Vector2d mean(int slot) const;
   void activate_known(const Scan& scan);
+  void activate_by_tree(double t);
   void add_known(const Scan& scan);
   bool is_closing(int slot, const Observation& observation) const;
   [[nodiscard]] bool add_new(const Scan& scan);
@@ -64,10 +76,12 @@ class Seif final : public Estimator {
   SeifOptions options_;
   InformationState state_;
   MultilevelMean mean_;
+  CondensationTree tree_;
+  bool by_tree_;  // whether the mean is the tree's
   Pose2 T_robot_sensor_;
   double anchoring_ = 0.0;                  // [nat]
   std::vector<ObservationFactor> factors_;  // of the latest scan
-  std::vector<int> to_drop_;                // slots; kept so that no update allocates
+  std::vector<int> seen_, to_drop_;         // slots; kept so that no update allocates
 };
 
 }  // namespace seif

@@ -54,6 +54,9 @@ int integer(const Options& options, const OptionSpec& spec) {
   return static_cast<int>(option<std::int64_t>(options, spec.key));
 }
 
+const std::map<std::string, SeifMean> seif_means{
+    {"multilevel", SeifMean::multilevel}, {"tree", SeifMean::tree}, {"exact", SeifMean::exact}};
+
 EstimatorType seif_report() {
   return {
       .name = "seif_report",
@@ -106,10 +109,13 @@ EstimatorType seif() {
       .help =
           "An observation is linearised at what was measured if that is farther from where the landmark is "
           "believed to be than so many times the range; 0: never [-]."};
-  const OptionSpec mean_recovery{.key = "mean_recovery",
-                                 .fallback = std::string("multilevel"),
-                                 .choices = {"multilevel", "exact"},
-                                 .help = "How the mean is recovered; exact is not in constant time."};
+  const OptionSpec mean_recovery{
+      .key = "mean_recovery",
+      .fallback = std::string("multilevel"),
+      .choices = {"multilevel", "tree", "exact"},
+      .help =
+          "How the mean is recovered: by rigid groups, nearly; along a condensation "
+          "tree, exactly, fast in corridors; exactly, not in constant time."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},
@@ -135,7 +141,7 @@ EstimatorType seif() {
         chosen.first_estimates = integer(options, first_estimates);
         chosen.relinearise_above = option<double>(options, relinearise_above.key);
         chosen.closing_gate = option<double>(options, closing_gate.key);
-        chosen.exact_mean = option<std::string>(options, mean_recovery.key) == "exact";
+        chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
         chosen.multilevel.other_groups = integer(options, other_groups);
         chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
         return std::make_unique<Seif>(setup, chosen);

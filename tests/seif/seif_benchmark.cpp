@@ -68,6 +68,18 @@ BENCHMARK(seif_update)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
+void seif_by_tree_update(benchmark::State& state) {
+  update<Seif>(state, SeifOptions{.mean_recovery = SeifMean::tree});
+}
+BENCHMARK(seif_by_tree_update)
+    ->Arg(50)
+    ->Arg(200)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(100'000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMicrosecond);
+
 /// One step of an update of seif, all else as in update().
 void seif_step(benchmark::State& state, Stage step) {
   using Clock = std::chrono::steady_clock;

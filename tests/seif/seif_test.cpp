@@ -46,7 +46,7 @@ TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
 
 TEST(Seif, ReportsNoErrorOfTheMeanWhereTheMeanIsExact) {
   RingDrive drive(60, 5);
-  Seif exact(drive.setup(), {.exact_mean = true});
+  Seif exact(drive.setup(), {.mean_recovery = SeifMean::exact});
   Seif multilevel(drive.setup(), {});
   for (int k = 0; k < drive.steps_for_a_round(); ++k) {
     drive.step(exact);

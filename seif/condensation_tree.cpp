@@ -1,0 +1,229 @@
+// The live path: joining, activation, the solution, and reading. How the zone moves is in
+// condensation_planning.cpp.
+#include "seif/condensation_tree.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+
+namespace seif {
+
+// Leaves.
+
+int CondensationTree::add_leaf(const Eigen::Vector2d& place) {
+  const int leaf = tree_.add_leaf(place);
+  while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
+  node(leaf).hot = true;
+  node(leaf).used = scan_;
+  hot_leaves_.push_back(leaf);
+  changed_.push_back(leaf);
+  return leaf;
+}
+
+/// The nearest hot leaf that has room, or a new one.
+int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
+  int nearest = none;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const int leaf : hot_leaves_) {
+    if (node(leaf).landmarks >= options_.most_in_leaf) continue;
+    const double distance = (zone_.mean(place(node(leaf).first_landmark).hot) - p).squaredNorm();
+    if (distance >= shortest) continue;
+    shortest = distance;
+    nearest = leaf;
+  }
+  return nearest != none ? nearest : add_leaf(p);
+}
+
+void CondensationTree::join(const InformationState& state, int slot) {
+  const int leaf = leaf_for(state.mean(slot));
+  places_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
+  place(slot).hot = zone_.add(slot, state.mean(slot));
+  node(leaf).first_landmark = slot;
+  ++node(leaf).landmarks;
+  front_.add_landmark();
+  ++epoch_;
+}
+
+// The window.
+
+bool CondensationTree::activate(InformationState& state, std::span<const int> slots) {
+  ++scan_;
+  for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
+  for (const int slot : slots) node(place(slot).leaf).used = scan_;
+  if (choose_hot_leaves(state, slots) && !move_zone(state)) return false;
+  zone_places_.clear();
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    if (state.position(slot) < 0 && std::ranges::find(zone_places_, h) == zone_places_.end()) {
+      zone_places_.push_back(h);
+    }
+  }
+  if (zone_places_.empty()) return true;
+  follow_in_zone(state);
+  ++epoch_;
+  if (!zone_.restore(zone_places_)) return false;
+  for (const int h : zone_places_) {  // its links to active landmarks are the window's from now on
+    const int slot = zone_.slot(h);
+    zone_.add_information(h, h, -state.information(slot));
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      if (state.position(other) >= 0) zone_.add_information(h, place(other).hot, -Omega_so);
+    });
+    state.set_mean(slot, zone_.mean(h));
+    state.activate(slot);
+  }
+  return true;
+}
+
+bool CondensationTree::deactivate(const InformationState& state, std::span<const int> slots) {
+  follow_in_zone(state);
+  ++epoch_;
+  zone_places_.clear();
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    zone_places_.push_back(h);
+    zone_.add_information(h, h, state.information(slot));
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      const int h_other = place(other).hot;
+      if (h_other == none || !zone_.is_active(h_other)) return;  // stands in F already
+      if (state.position(other) < 0 && other < slot) return;     // dropped too, and comes by itself
+      zone_.add_information(h, h_other, Omega_so);
+    });
+  }
+  return zone_.eliminate(zone_places_);
+}
+
+/// The information on the active landmarks of all that is not in the window (w x w).
+void CondensationTree::add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const {
+  for (int p = 0; p < state.active_count(); ++p) {
+    const int h = place(state.active(p)).hot;
+    for (int q = 0; q < state.active_count(); ++q) {
+      Omega.block<2, 2>(InformationState::row_of(p), InformationState::row_of(q)) +=
+          zone_.block(h, place(state.active(q)).hot);
+    }
+  }
+}
+
+bool CondensationTree::solve_window(InformationState& state) {
+  const int w = state.window_size();
+  if (M_.rows() < w) {
+    M_.resize(2 * w, 2 * w);
+    step_.resize(2 * w);
+    change_.resize(2 * w);
+  }
+  auto M = M_.topLeftCorner(w, w);
+  M = state.Omega();
+  add_condensed(state, M);
+  auto L = state.work();
+  L = M;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(L);
+  if (llt.info() != Eigen::Success) return false;
+  auto d = step_.head(w);
+  d = state.r();
+  llt.solveInPlace(d);
+  auto dr = change_.head(w);
+  dr.noalias() = M * d;
+  state.move_window(d, dr);
+  state.touch(2 * state.window_blocks());
+  ++epoch_;
+  return true;
+}
+
+// Means. Reading leaves no trace: what it finds goes to read_, and holds until epoch_ counts on. Following
+// writes it down where the next step starts from.
+
+const Eigen::VectorXd& CondensationTree::read_zone(const InformationState& state) const {
+  if (zone_read_at_ != epoch_) zone_.follow([&](int slot) { return state.mean(slot); }, zone_read_);
+  zone_read_at_ = epoch_;
+  return zone_read_;
+}
+
+Eigen::Vector2d CondensationTree::as_read(int slot) const {
+  const int h = place(slot).hot;
+  return h != none ? Eigen::Vector2d(zone_read_.segment<2>(2 * h)) : Eigen::Vector2d(place(slot).read);
+}
+
+/// The landmarks that were eliminated at this node, and at all from there to the hub, follow their
+/// boundaries: d_E = -L^-T G d_B.
+void CondensationTree::read(const InformationState& state, int at) const {
+  const Node& n = node(at);
+  if (n.read_at == epoch_) return;
+  n.read_at = epoch_;
+  if (const int next = tree_.towards(at); next != none) {
+    read(state, next);
+  } else {
+    read_zone(state);
+  }
+  const auto e = 2 * static_cast<Eigen::Index>(n.message.eliminated.size());
+  const auto b = 2 * static_cast<Eigen::Index>(n.message.boundary.size());
+  if (e == 0) return;
+  if (read_step_.size() < e + b) read_step_.resize(2 * (e + b));
+  auto d_E = read_step_.head(e);
+  auto d_B = read_step_.segment(e, b);
+  d_B = -Eigen::Map<const Eigen::VectorXd>(n.message.reference.data(), b);
+  Eigen::Index row = 0;
+  for (const Condensed::Mention& m : n.message.boundary) {
+    d_B.segment<2>(row) += as_read(m.slot);
+    row += 2;
+  }
+  const auto columns = n.message.L_and_G();
+  d_E.noalias() = columns.bottomRows(b).transpose() * d_B;
+  columns.topRows(e).triangularView<Eigen::Lower>().transpose().solveInPlace(d_E);
+  row = 0;
+  for (const int slot : n.message.eliminated) {
+    place(slot).read = place(slot).mean - d_E.segment<2>(row);
+    row += 2;
+  }
+}
+
+Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) const {
+  if (state.position(slot) >= 0) return state.mean(slot);
+  if (const int h = place(slot).hot; h != none) return read_zone(state).segment<2>(2 * h);
+  read(state, place(slot).eliminated_at);
+  return place(slot).read;
+}
+
+void CondensationTree::follow_in_zone(const InformationState& state) {
+  if (zone_followed_at_ == epoch_) return;
+  zone_followed_at_ = epoch_;
+  zone_.set_means(read_zone(state));
+  blocks_touched_ += std::int64_t{state.active_count()} * zone_.size();
+}
+
+void CondensationTree::follow(const InformationState& state, int at) {
+  if (node(at).followed_at == epoch_) return;
+  node(at).followed_at = epoch_;
+  if (const int next = tree_.towards(at); next != none) {
+    follow(state, next);
+  } else {
+    follow_in_zone(state);
+  }
+  read(state, at);
+  Condensed& message = node(at).message;
+  for (const int slot : message.eliminated) place(slot).mean = place(slot).read;
+  Eigen::Map<Eigen::VectorXd> reference(message.reference.data(),
+                                        static_cast<Eigen::Index>(message.reference.size()));
+  Eigen::Index row = 0;
+  for (const Condensed::Mention& m : message.boundary) {
+    reference.segment<2>(row) = as_read(m.slot);
+    row += 2;
+  }
+  blocks_touched_ += message.blocks();
+}
+
+/// Where move_zone() has stopped halfway, the nodes that it was about to change have followed before.
+void CondensationTree::write_means(InformationState& state) {
+  for (int slot = 0; slot < state.landmark_count(); ++slot) {
+    if (state.position(slot) >= 0) continue;
+    if (const int at = place(slot).eliminated_at; at != none) follow(state, at);
+    state.set_mean(slot, place(slot).mean);
+  }
+}
+
+std::size_t CondensationTree::memory_bytes() const {
+  std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + places_.memory_bytes() +
+                      front_.memory_bytes() + zone_.memory_bytes();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].message.memory_bytes();
+  return bytes;
+}
+
+}  // namespace seif

@@ -1,0 +1,119 @@
+// Recovers the mean exactly: what lies far from the robot is condensed along a tree, once, and follows when
+// somebody looks.
+//
+//           o            Landmarks live in leaves of about a dozen. Those about the robot are hot (*): their
+//        /     \         landmarks stand in the hub (HotZone). Every other node sends one message towards
+//      hub      o        the hub: the information of what lies behind it, after elimination of all that
+//     /   \    / \       nothing before it has a block with (Front). So a message changes only if a leaf
+//    0*   1*  2   3      behind it becomes hot or cold, or if the hub passes by.
+//
+// Omega changes in the window alone, and the window is hot. So an update solves for robot and active
+// landmarks with Omega + S, S what hub and messages know of them: the exact mean of all Omega. The others
+// follow by what their elimination has left. seif/README.md has more of it.
+//
+// Glossary: a leaf owns a block Omega_ij if it is the older of the leaves of i and j; it mentions the
+//           landmarks of its blocks. A landmark is complete where all leaves that mention it have met.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "seif/condensation_nodes.hpp"
+#include "seif/hot_zone.hpp"
+#include "seif/information_state.hpp"
+#include "seif/leaf_tree.hpp"
+
+namespace seif {
+
+struct CondensationOptions {
+  int most_in_leaf = 16;    // [-] landmarks of a leaf as it grows
+  int most_hot = 32;        // [-] landmarks beyond which leaves without an active one do not stay hot
+  int most_in_front = 400;  // [-] landmarks about one node: bounds the work of an update
+};
+
+/// All r of passive landmarks are zero at the means that it tells; the state holds stale ones.
+class CondensationTree {
+ public:
+  explicit CondensationTree(const CondensationOptions& options) : options_(options) {}
+
+  /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
+  /// are now. False if a matrix is not positive definite, as below.
+  [[nodiscard]] bool activate(InformationState& state, std::span<const int> slots);
+
+  /// Whether activate() has returned false because a front would have held more than most_in_front landmarks:
+  /// write_means() is all that may still be called then.
+  bool is_overgrown() const { return overgrown_; }
+  /// Into the state, whose r then is that of its means; at the cost of a pass over the map.
+  void write_means(InformationState& state);
+
+  /// A landmark that has just joined the map, before it becomes active.
+  void join(const InformationState& state, int slot);
+
+  /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
+  [[nodiscard]] bool solve_window(InformationState& state);
+
+  /// After these have been dropped from the window.
+  [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
+
+  /// p_world_landmark, in O(log N). [m]
+  Eigen::Vector2d mean(const InformationState& state, int slot) const;
+
+  std::int64_t blocks_touched() const { return blocks_touched_ + zone_.blocks_touched(); }
+  std::size_t memory_bytes() const;
+
+  /// At the cost of a pass over the map: what is wrong with the tree, if anything is.
+  std::optional<std::string> broken_invariant(const InformationState& state) const;
+
+ private:
+  static constexpr int none = -1;
+  using Place = CondensedLandmark;
+  using Node = CondensationNode;
+  Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
+  const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
+  Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  template <class Visit>
+  void for_each_landmark(int leaf, Visit&& visit) const {
+    for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
+  }
+
+  bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
+  bool move_zone(const InformationState& state);
+  int leaf_for(const Eigen::Vector2d& p);
+  int add_leaf(const Eigen::Vector2d& place);
+
+  void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
+  void follow_in_zone(const InformationState& state);
+  void follow(const InformationState& state, int at);
+  const Eigen::VectorXd& read_zone(const InformationState& state) const;
+  void read(const InformationState& state, int at) const;
+  Eigen::Vector2d as_read(int slot) const;
+  int count_leaves(const InformationState& state, int slot) const;
+  void add_leaf_to_front(const InformationState& state, int leaf);
+  bool send(const InformationState& state, int from);
+  bool condense(int at);
+  bool fill_zone(const InformationState& state);
+  CondensationOptions options_;
+  LeafTree tree_;
+  ChunkedArray<Node> nodes_;
+  ChunkedArray<Place> places_;  // by slot
+  Front front_;
+  HotZone zone_;
+  std::vector<int> hot_leaves_, next_hot_;
+  std::vector<int> changed_;  // leaves that have become hot or cold, or are new
+  std::vector<int> way_, zone_places_;
+  mutable std::vector<int> owners_;
+  std::int64_t epoch_ = 1;
+  std::int64_t zone_followed_at_ = 0;  // epoch, as below
+  mutable std::int64_t zone_read_at_ = 0;
+  mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
+  int scan_ = 0, visit_ = 0;
+  bool overgrown_ = false;
+  Eigen::MatrixXd M_;              // (w x w), with room to grow
+  Eigen::VectorXd step_, change_;  // (w), with room to grow
+  std::int64_t blocks_touched_ = 0;
+};
+
+}  // namespace seif

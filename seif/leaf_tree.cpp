@@ -1,0 +1,110 @@
+#include "seif/leaf_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace seif {
+namespace {
+
+constexpr double cell = 4.0;  // [m] finer places are not told apart
+constexpr double turn =
+    0.46;  // [rad] of the grid: corridors that run along its lines would change sides often
+
+std::uint64_t spread_bits(std::uint64_t x) {  // 16 of them, to every second place
+  x = (x | x << 8) & 0x00FF00FF;
+  x = (x | x << 4) & 0x0F0F0F0F;
+  x = (x | x << 2) & 0x33333333;
+  return (x | x << 1) & 0x55555555;
+}
+
+std::uint64_t cell_of(double coordinate) {
+  constexpr double half = 32768.0;
+  return static_cast<std::uint64_t>(std::clamp(coordinate / cell + half, 0.0, 2.0 * half - 1.0));
+}
+
+/// The cell of a place, by both coordinates' bits in turns, and then what tells it from others there.
+std::uint64_t key_of(const Eigen::Vector2d& place, int leaf) {
+  const double x = std::cos(turn) * place.x() - std::sin(turn) * place.y();
+  const double y = std::sin(turn) * place.x() + std::cos(turn) * place.y();
+  return (spread_bits(cell_of(x)) << 1 | spread_bits(cell_of(y))) << 32 | static_cast<std::uint64_t>(leaf);
+}
+
+}  // namespace
+
+int LeafTree::add_node() {
+  nodes_.push_back({});
+  return size() - 1;
+}
+
+int LeafTree::add_leaf(const Eigen::Vector2d& place) {
+  const int leaf = add_node();
+  const std::uint64_t key = at(leaf).key = key_of(place, leaf);
+  if (root_ == none) {
+    root_ = hub_ = leaf;
+    return leaf;
+  }
+  int sibling = root_;
+  const auto differ_at = [&] { return static_cast<int>(std::bit_width(at(sibling).key ^ key)) - 1; };
+  while (differ_at() < at(sibling).bit) sibling = at(sibling).child[key >> at(sibling).bit & 1U];
+  const int bit = differ_at();
+  const int inner = insert_above(sibling);
+  const std::size_t side = key >> bit & 1U;
+  at(inner).key = key;
+  at(inner).bit = bit;
+  at(inner).child[side] = leaf;
+  at(inner).child[1 - side] = sibling;
+  at(leaf).parent = at(leaf).towards = inner;
+  return leaf;
+}
+
+/// A new node between a node and its parent, or above the root.
+int LeafTree::insert_above(int below) {
+  const int inner = add_node();
+  const int above = at(below).parent;
+  at(inner).parent = above;
+  at(below).parent = inner;
+  if (above == none) {
+    root_ = inner;
+  } else {
+    at(above).child[at(above).child[0] == below ? 0 : 1] = inner;
+  }
+  if (above != none && at(below).towards == above) {
+    at(below).towards = inner;
+    at(inner).towards = above;
+  } else {
+    if (above != none) at(above).towards = inner;
+    at(inner).towards = below;
+  }
+  return inner;
+}
+
+int LeafTree::common_ancestor(std::span<const int> leaves) {
+  assert(!leaves.empty());
+  ++mark_;
+  for (const int leaf : leaves) {
+    for (int n = leaf; n != none; n = at(n).parent) {
+      if (at(n).mark != mark_) at(n).marks = 0;
+      at(n).mark = mark_;
+      ++at(n).marks;
+    }
+  }
+  int n = leaves.front();
+  while (at(n).marks != static_cast<int>(leaves.size())) n = at(n).parent;
+  return n;
+}
+
+void LeafTree::move_hub(int to, std::vector<int>& way) {
+  way.clear();
+  for (int n = to; n != hub_; n = at(n).towards) way.push_back(at(n).towards);
+  int next = to;  // the way was gone backwards
+  for (const int n : way) {
+    at(n).towards = next;
+    next = n;
+  }
+  at(to).towards = none;
+  hub_ = to;
+}
+
+}  // namespace seif

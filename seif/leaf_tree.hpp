@@ -1,0 +1,80 @@
+// A binary tree of places: its leaves stand where their keys put them, and every node knows the way to one
+// node of them all, the hub.
+//
+//            tree             plane
+//             o              +-------+---+---+
+//          /     \           |       | 2 | 3 |
+//         o       o          |   0   +---+---+
+//        / \     / \         |       |   1   |
+//       0   1   2   3        +-------+-------+
+//
+// A key holds the bits of a place's two coordinates in turns, the highest first. Each bit halves a rectangle
+// of the plane, and an inner node stands for the rectangle of its leaves. So places that are near to each
+// other mostly are so in the tree, in whatever order they come, and nothing has to be balanced.
+//
+//   towards(n): the neighbour of n, parent or child, on its way to the hub.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "seif/chunked_array.hpp"
+
+namespace seif {
+
+class LeafTree {
+ public:
+  static constexpr int none = -1;
+
+  /// Adds a leaf; returns its node. The first one is the hub. An inner node may be added too, between the
+  /// leaf and all others.
+  int add_leaf(const Eigen::Vector2d& place);
+
+  int size() const { return static_cast<int>(nodes_.size()); }
+  bool is_leaf(int node) const { return at(node).child[0] == none; }
+  int hub() const { return hub_; }
+  /// none for the hub.
+  int towards(int node) const { return at(node).towards; }
+
+  /// Visits the neighbours of a node but that on the way to the hub.
+  template <class Visit>
+  void for_each_source(int node, Visit&& visit) const {
+    const Node& n = at(node);
+    for (const int neighbour : {n.child[0], n.child[1], n.parent}) {
+      if (neighbour != none && neighbour != n.towards) visit(neighbour);
+    }
+  }
+
+  /// The lowest node above all of these; at least one.
+  int common_ancestor(std::span<const int> leaves);
+
+  /// Makes a node the hub. `way` gets the nodes from the old hub on that now lead elsewhere.
+  void move_hub(int to, std::vector<int>& way);
+
+  std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
+
+ private:
+  struct Node {
+    int parent = none;
+    int child[2] = {none, none};
+    int towards = none;
+    std::uint64_t key = 0;  // of one of its leaves
+    int bit = none;         // the highest in which its leaves differ
+    int marks = 0;          // of the leaves that common_ancestor() has gone up from
+    int mark = 0;           // of which of its calls
+  };
+
+  Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
+  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  int add_node();
+  int insert_above(int below);
+
+  ChunkedArray<Node> nodes_;
+  int root_ = none;
+  int hub_ = none;
+  int mark_ = 0;
+};
+
+}  // namespace seif

@@ -1,0 +1,120 @@
+// Our filter with the condensation tree: what an update costs, and what happens where a map grows too wide
+// for it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "allocation_counter.hpp"
+#include "path_drive.hpp"
+#include "ring_drive.hpp"
+#include "seif/mean_recovery.hpp"
+#include "seif/seif.hpp"
+
+namespace seif {
+namespace {
+
+using test::RingDrive;
+
+constexpr SeifOptions by_tree{.mean_recovery = SeifMean::tree};
+
+/// Blocks touched by each update of the second round, in order of size.
+std::vector<std::int64_t> blocks_touched(int landmarks, int measured) {
+  RingDrive drive(landmarks, 3);
+  Seif filter(drive.setup(), by_tree);
+  for (int k = 0; k < drive.steps_for_a_round() + 100; ++k) drive.step(filter);
+  std::vector<std::int64_t> blocks;
+  for (int k = 0; k < measured; ++k) {
+    const std::int64_t before = filter.counts().blocks_touched;
+    drive.step(filter);
+    blocks.push_back(filter.counts().blocks_touched - before);
+  }
+  std::ranges::sort(blocks);
+  return blocks;
+}
+
+// The zone moves every fifteenth update or so, mostly by a few nodes; how many at most grows with log N.
+TEST(SeifByTree, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
+  const int small_map = test::under_sanitizer ? 400 : 1'000;
+  const int measured = small_map * 3 / 2 - 200;
+  const auto small = blocks_touched(small_map, measured);
+  const auto large = blocks_touched(test::under_sanitizer ? 800 : 20'000, measured);
+  const std::size_t median = small.size() / 2;
+  const std::size_t p99 = small.size() * 99 / 100;
+  EXPECT_LE(large[median], small[median] * 11 / 10);
+  EXPECT_LE(large[p99], small[p99] * 11 / 10);
+  EXPECT_LE(large.back(), 2 * small.back());
+}
+
+TEST(SeifByTree, AllocatesNothingOnceTheMapIsBuilt) {
+  if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
+  RingDrive drive(300, 4);
+  Seif filter(drive.setup(), by_tree);
+  for (int k = 0; k < 3 * drive.steps_for_a_round(); ++k) drive.step(filter);
+  for (int k = 0; k < drive.steps_for_a_round(); ++k) {
+    drive.advance();
+    const long before = allocations();
+    filter.motion_update(drive.odometry());
+    filter.measurement_update(drive.scan(), test::ignore);
+    ASSERT_EQ(allocations(), before) << "step " << k;
+  }
+}
+
+TEST(SeifByTree, IsTheSameToTheBitTheSecondTime) {
+  RingDrive drive_a(200, 9);
+  RingDrive drive_b(200, 9);
+  Seif a(drive_a.setup(), by_tree);
+  Seif b(drive_b.setup(), by_tree);
+  for (int k = 0; k < 2 * drive_a.steps_for_a_round(); ++k) {
+    drive_a.step(a);
+    drive_b.step(b);
+    ASSERT_EQ(a.pose().x, b.pose().x);
+    ASSERT_EQ(a.pose().theta, b.pose().theta);
+  }
+  const auto map_a = a.map();
+  const auto map_b = b.map();
+  ASSERT_EQ(map_a.size(), map_b.size());
+  for (std::size_t i = 0; i < map_a.size(); ++i) EXPECT_EQ(map_a[i].mean, map_b[i].mean);
+}
+
+/// A square of 20 m, covered in lanes of 4 m and then crossed.
+class WideMap : public testing::Test {
+ protected:
+  static constexpr double side = 20.0;  // [m]
+  static test::PathDrive drive() {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> anywhere(0.0, side);
+    test::Points landmarks;
+    for (int i = 0; i < 150; ++i) landmarks.emplace_back(anywhere(random), anywhere(random));
+    test::Points path;
+    for (double y = 2.0; y < side; y += 8.0) {
+      path.insert(path.end(), {{0, y}, {side, y}, {side, y + 4.0}, {0, y + 4.0}});
+    }
+    path.insert(path.end(), {{0, 0}, {side, side}});
+    return {landmarks, path, 1};
+  }
+};
+
+TEST_F(WideMap, AfterTheHandOverTheGroupsKeepTheMapRight) {
+  test::PathDrive a = drive();
+  test::PathDrive b = drive();
+  Seif narrow(a.setup(), {.mean_recovery = SeifMean::tree, .tree = {.most_in_front = 70}});
+  Seif exact(b.setup(), {.mean_recovery = SeifMean::exact});
+  while (!a.at_end()) {
+    a.advance();
+    b.advance();
+    narrow.motion_update(a.odometry());
+    exact.motion_update(b.odometry());
+    narrow.measurement_update(a.scan(), test::ignore);
+    exact.measurement_update(b.scan(), test::ignore);
+  }
+  ASSERT_TRUE(narrow.counts().mean_residual.has_value());
+  const auto map = narrow.map();
+  const auto expected = exact.map();
+  double squared = 0.0;
+  for (std::size_t i = 0; i < map.size(); ++i) squared += (map[i].mean - expected[i].mean).squaredNorm();
+  EXPECT_LT(std::sqrt(squared / static_cast<double>(map.size())), 0.02);  // as far as a range may be off
+}
+
+}  // namespace
+}  // namespace seif
