@@ -89,6 +89,19 @@ void check_pose_source(const Check& check) {
                            suggestion(name, names)));
 }
 
+/// What is filmed must run.
+void check_film(const Check& check) {
+  if (!check.sound({"film.estimators", "estimators"})) return;
+  std::vector<std::string> names;
+  for (const EstimatorChoice& choice : check.world.estimators) names.push_back(choice.name);
+  const std::vector<std::string>& filmed = check.world.film.estimators;
+  for (std::size_t i = 0; i < filmed.size(); ++i) {
+    if (std::find(names.begin(), names.end(), filmed[i]) != names.end()) continue;
+    check.refuse(fmt::format("film.estimators.{}", i), fmt::format("there is no estimator '{}' to film{}",
+                                                                   filmed[i], suggestion(filmed[i], names)));
+  }
+}
+
 void check_speed(const Check& check) {
   const Drive& drive = check.world.drive;
   const bool cruises = drive.mode != DriveMode::hold && drive.mode != DriveMode::commands;
@@ -242,6 +255,10 @@ void refuse_value(const Node& document, std::string_view path, std::string messa
   problems.push_back({node->where, std::move(message), std::string(path)});
 }
 
+void check_film(const Node& document, const World& world, std::vector<Problem>& problems) {
+  check_film(Check{document, world, problems, {}, {}});
+}
+
 void check_world(const Node& document, const World& world, std::vector<Problem>& problems) {
   Check check{document, world, problems, {}, {}};
   if (is_sound(problems, {"obstacles"})) {
@@ -255,6 +272,7 @@ void check_world(const Node& document, const World& world, std::vector<Problem>&
   check_path(check);
   check_landmarks(check);
   check_engine(check);
+  check_film(check);
 }
 
 }  // namespace worlds

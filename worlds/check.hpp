@@ -19,4 +19,8 @@ void refuse_value(const Node& document, std::string_view path, std::string messa
 /// a section with a problem is not checked. The path of the drive must be laid out, its commands read.
 void check_world(const Node& document, const World& world, std::vector<Problem>& problems);
 
+/// Checks that the estimators to be filmed are among those that run; check_world does so too. For a replay,
+/// whose world is not checked otherwise.
+void check_film(const Node& document, const World& world, std::vector<Problem>& problems);
+
 }  // namespace worlds

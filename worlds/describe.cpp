@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "worlds/film_layers.hpp"
+
 namespace worlds {
 namespace {
 
@@ -19,12 +21,17 @@ constexpr double largest_radius = 100;     // [m] of a landmark
 constexpr double most_landmarks = 1e7;     // [-] of one generator
 constexpr double highest_step_rate = 1e4;  // [Hz]
 constexpr double most_tries = 1e6;         // [-]
+constexpr double smallest_film = 64;       // [px]
+constexpr double largest_film = 7680;      // [px]
+constexpr double highest_film_rate = 240;  // [1/s]
+constexpr std::size_t most_filmed = 2;     // [-] estimators side by side
 
 constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
                                                         "serpentine", "explore",   "commands"};
 constexpr std::array<std::string_view, 2> engine_names = {"bullet", "kinematic"};
 constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_disk", "grid",
                                                            "ring",    "clusters",     "corridor"};
+constexpr std::array<std::string_view, 5> camera_names = {"overview", "chase", "orbit", "top", "fixed"};
 
 /// The enumerator whose name stands at its own index. The first one for a name that is none: that was a
 /// problem.
@@ -373,6 +380,35 @@ void describe_scoring(Fields& fields, Scoring& scoring) {
                 "over which the relative pose error is taken");
 }
 
+void describe_camera(Fields& fields, Film& film) {
+  std::string camera = name_of(camera_names, film.camera);
+  fields.choice("camera", camera, {camera_names.begin(), camera_names.end()},
+                "overview: the whole ground; chase: behind the robot; orbit: round the robot; top: straight "
+                "down on the robot; fixed: from eye_m to target_m");
+  film.camera = enum_of<FilmCamera>(camera_names, camera);
+  fields.vector3("eye_m", film.eye, coordinate(), "where the fixed camera is");
+  fields.vector3("target_m", film.target, coordinate(), "what the fixed camera looks at");
+  if (fields.sound() && film.camera == FilmCamera::fixed && film.eye == film.target) {
+    fields.problem("eye_m", "'eye_m' must differ from 'target_m', or the camera looks nowhere");
+  }
+}
+
+void describe_film(Fields& fields, Film& film) {
+  Eigen::Vector2d size(film.width, film.height);
+  fields.vector2("size_px", size, even_between(smallest_film, largest_film), "width and height");
+  film.width = static_cast<int>(size.x());
+  film.height = static_cast<int>(size.y());
+  fields.integer("fps", film.fps, between(1, highest_film_rate), "frames for each second of the film");
+  fields.number("speed", film.speed, at_least(0),
+                "simulated over film time; 0: so that the film takes 40 s at the most");
+  describe_camera(fields, film);
+  fields.names("estimators", film.estimators, most_filmed,
+               "one or two names; none: seif and ekf if they run, or the first two");
+  fields.section("layers", "what is shown", [&](Fields& inner) {
+    for (const auto& [name, shown, help] : film_layers) inner.boolean(name, film.layers.*shown, help);
+  });
+}
+
 }  // namespace
 
 void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& estimators) {
@@ -415,6 +451,7 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
   describe_estimators(fields, world, estimators);
   fields.section("scoring", "how the run is scored",
                  [&](Fields& inner) { describe_scoring(inner, world.scoring); });
+  fields.section("film", "how the run is filmed", [&](Fields& inner) { describe_film(inner, world.film); });
 }
 
 }  // namespace worlds

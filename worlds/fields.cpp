@@ -71,13 +71,23 @@ void Fields::vector2(std::string_view key, Eigen::Vector2d& value, const Range& 
   field({.key = key, .help = help, .need = need, .range = range}, &value);
 }
 
+void Fields::vector3(std::string_view key, Eigen::Vector3d& value, const Range& range, std::string_view help,
+                     Need need) {
+  field({.key = key, .help = help, .need = need, .range = range}, &value);
+}
+
 void Fields::points(std::string_view key, std::vector<Eigen::Vector2d>& value, const Range& range,
                     std::size_t min_count, std::string_view help, Need need) {
   field({.key = key, .help = help, .need = need, .range = range, .min_count = min_count}, &value);
 }
 
+void Fields::names(std::string_view key, std::vector<std::string>& value, std::size_t max_count,
+                   std::string_view help, Need need) {
+  field({.key = key, .help = help, .need = need, .max_count = max_count}, &value);
+}
+
 std::string_view unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> units = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 16> units = {{
       {"_per_m2", "per m^2"},  // longer endings come first
       {"_deg_s2", "deg/s^2"},
       {"_deg_s", "deg/s"},
@@ -90,6 +100,7 @@ std::string_view unit_of_key(std::string_view key) {
       {"_kg", "kg"},
       {"_hz", "Hz"},
       {"_nm", "N m"},
+      {"_px", "px"},
       {"_m", "m"},
       {"_s", "s"},
       {"_w", "W"},

@@ -32,6 +32,7 @@ struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool excludes_min = false;
+  double multiple_of = 0.0;  // [-] 0: of anything
 };
 
 inline Range any_number() { return {}; }
@@ -41,6 +42,7 @@ inline Range between(double min, double max) { return {.min = min, .max = max}; 
 inline Range more_than_up_to(double min, double max) {
   return {.min = min, .max = max, .excludes_min = true};
 }
+inline Range even_between(double min, double max) { return {.min = min, .max = max, .multiple_of = 2}; }
 
 /// What it means that a key is missing.
 enum class Need {
@@ -57,6 +59,7 @@ struct FieldSpec {
   Range range = {};                       // numbers
   std::vector<std::string> choices = {};  // texts; empty: any
   std::size_t min_count = 0;              // lists of points
+  std::size_t max_count = 0;              // lists of names
 };
 
 /// Which names a map of named things may have: [A-Za-z0-9_-]+, and none that is reserved.
@@ -113,9 +116,17 @@ class Fields {
   void vector2(std::string_view key, Eigen::Vector2d& value, const Range& range, std::string_view help,
                Need need = Need::defaulted);
 
+  /// [x, y, z], each of them in the range.
+  void vector3(std::string_view key, Eigen::Vector3d& value, const Range& range, std::string_view help,
+               Need need = Need::defaulted);
+
   /// [[x, y], ...], at least `min_count` of them, all numbers in the range.
   void points(std::string_view key, std::vector<Eigen::Vector2d>& value, const Range& range,
               std::size_t min_count, std::string_view help, Need need = Need::defaulted);
+
+  /// [name, ...], at most `max_count` of them, each once.
+  void names(std::string_view key, std::vector<std::string>& value, std::size_t max_count,
+             std::string_view help, Need need = Need::defaulted);
 
   /// An inner map. One that is missing is read as an empty one: its own required keys are then missing.
   virtual void section(std::string_view key, std::string_view help,
@@ -147,8 +158,8 @@ class Fields {
   virtual void problem(std::string_view key, std::string message) = 0;
 
  protected:
-  using Value = std::variant<bool*, std::int64_t*, double*, std::string*, Eigen::Vector2d*,
-                             std::vector<Eigen::Vector2d>*>;
+  using Value = std::variant<bool*, std::int64_t*, double*, std::string*, Eigen::Vector2d*, Eigen::Vector3d*,
+                             std::vector<Eigen::Vector2d>*, std::vector<std::string>*>;
 
   virtual void field(const FieldSpec& spec, Value value) = 0;
   virtual void list_of_maps(std::string_view key, std::string_view help,

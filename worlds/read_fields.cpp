@@ -38,12 +38,18 @@ NumberStatus parse_number(const Node& node, double& value) {
 std::string describe_range(const Range& range, std::string_view unit) {
   const std::string_view space = unit.empty() ? "" : " ";
   const std::string_view least = range.excludes_min ? "more than" : "at least";
+  if (range.multiple_of > 0) {
+    Range bounds = range;
+    bounds.multiple_of = 0.0;
+    return fmt::format("a multiple of {}, {}", range.multiple_of, describe_range(bounds, unit));
+  }
   if (!std::isfinite(range.min)) return fmt::format("at most {}{}{}", range.max, space, unit);
   if (!std::isfinite(range.max)) return fmt::format("{} {}{}{}", least, range.min, space, unit);
   return fmt::format("{} {} and at most {}{}{}", least, range.min, range.max, space, unit);
 }
 
 bool contains(const Range& range, double value) {
+  if (range.multiple_of > 0 && std::fmod(value, range.multiple_of) != 0.0) return false;
   return value <= range.max && (range.excludes_min ? value > range.min : value >= range.min);
 }
 
@@ -85,19 +91,17 @@ Node make_scalar(std::string text, bool quoted, const Location& where) {
   return node;
 }
 
-Node make_point(const Eigen::Vector2d& point, const Location& where) {
-  Node node;
-  node.kind = Node::Kind::sequence;
-  node.where = where;
-  node.items = {make_scalar(format_number(point.x()), false, where),
-                make_scalar(format_number(point.y()), false, where)};
-  return node;
-}
-
 Node make_empty(Node::Kind kind, const Location& where) {
   Node node;
   node.kind = kind;
   node.where = where;
+  return node;
+}
+
+template <int N>
+Node make_point(const Eigen::Vector<double, N>& point, const Location& where) {
+  Node node = make_empty(Node::Kind::sequence, where);
+  for (const double value : point) node.items.push_back(make_scalar(format_number(value), false, where));
   return node;
 }
 
@@ -336,14 +340,17 @@ class Reader : public Fields {
     target = node.text;
   }
 
-  void read(const Node& node, const std::string& path, const FieldSpec& spec, Eigen::Vector2d& target) {
-    if (node.kind != Node::Kind::sequence || node.items.size() != 2) {
-      return refuse(node, path, spec, "a pair [x, y]");
+  template <int N>
+  void read(const Node& node, const std::string& path, const FieldSpec& spec,
+            Eigen::Vector<double, N>& target) {
+    if (node.kind != Node::Kind::sequence || node.items.size() != N) {
+      return refuse(node, path, spec, N == 2 ? "a pair [x, y]" : "a triple [x, y, z]");
     }
     const std::size_t before = problems_.size();
-    Eigen::Vector2d value = Eigen::Vector2d::Zero();
-    read(node.items[0], path + ".0", spec, value.x());
-    read(node.items[1], path + ".1", spec, value.y());
+    Eigen::Vector<double, N> value = Eigen::Vector<double, N>::Zero();
+    for (int i = 0; i < N; ++i) {
+      read(node.items[static_cast<std::size_t>(i)], fmt::format("{}.{}", path, i), spec, value[i]);
+    }
     if (problems_.size() == before) target = value;
   }
 
@@ -365,10 +372,39 @@ class Reader : public Fields {
     if (problems_.size() == before) target = std::move(value);
   }
 
+  void read(const Node& node, const std::string& path, const FieldSpec& spec,
+            std::vector<std::string>& target) {
+    if (node.kind != Node::Kind::sequence) return refuse(node, path, spec, "a list of names");
+    if (node.items.size() > spec.max_count) {
+      problems_.push_back({node.where,
+                           fmt::format("'{}' must have at most {} names, not {}", spec.key, spec.max_count,
+                                       node.items.size()),
+                           path});
+      return;
+    }
+    const std::size_t before = problems_.size();
+    std::vector<std::string> value(node.items.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const Node& item = node.items[i];
+      const std::string item_path = fmt::format("{}.{}", path, i);
+      read(item, item_path, spec, value[i]);
+      const auto end = value.begin() + static_cast<std::ptrdiff_t>(i);
+      if (item.kind == Node::Kind::scalar && !is_name(item.text)) {
+        refuse(item, item_path, spec, "a list of names of letters, digits, '_' and '-'");
+      } else if (std::find(value.begin(), end, value[i]) != end && !value[i].empty()) {
+        problems_.push_back({item.where, fmt::format("'{}' stands twice", item.text), item_path});
+      }
+    }
+    if (problems_.size() == before) target = std::move(value);
+  }
+
   Node write(double value) const { return make_scalar(format_number(value), false, map_.where); }
   Node write(std::int64_t value) const { return make_scalar(fmt::format("{}", value), false, map_.where); }
   Node write(bool value) const { return make_scalar(value ? "true" : "false", false, map_.where); }
-  Node write(const Eigen::Vector2d& value) const { return make_point(value, map_.where); }
+  template <int N>
+  Node write(const Eigen::Vector<double, N>& value) const {
+    return make_point(value, map_.where);
+  }
 
   Node write(const std::string& value) const {
     Node node = make_scalar(value, false, map_.where);
@@ -380,7 +416,13 @@ class Reader : public Fields {
 
   Node write(const std::vector<Eigen::Vector2d>& value) const {
     Node node = make_empty(Node::Kind::sequence, map_.where);
-    for (const Eigen::Vector2d& point : value) node.items.push_back(make_point(point, map_.where));
+    for (const Eigen::Vector2d& point : value) node.items.push_back(write(point));
+    return node;
+  }
+
+  Node write(const std::vector<std::string>& value) const {
+    Node node = make_empty(Node::Kind::sequence, map_.where);
+    for (const std::string& name : value) node.items.push_back(write(name));
     return node;
   }
 

@@ -93,19 +93,26 @@ class SchemaWriter : public Fields {
       schema[spec.range.excludes_min ? "exclusiveMinimum" : "minimum"] = spec.range.min;
     }
     if (std::isfinite(spec.range.max)) schema["maximum"] = spec.range.max;
+    if (spec.range.multiple_of > 0) schema["multipleOf"] = spec.range.multiple_of;
     return schema;
   }
 
-  static Json pair_type(const FieldSpec& spec) {
-    return {{"type", "array"}, {"items", number_type(spec, "number")}, {"minItems", 2}, {"maxItems", 2}};
+  template <int N>
+  static Json type_of(const FieldSpec& spec, const Eigen::Vector<double, N>&) {
+    return {{"type", "array"}, {"items", number_type(spec, "number")}, {"minItems", N}, {"maxItems", N}};
   }
 
   static Json type_of(const FieldSpec&, bool) { return {{"type", "boolean"}}; }
   static Json type_of(const FieldSpec& spec, std::int64_t) { return number_type(spec, "integer"); }
   static Json type_of(const FieldSpec& spec, double) { return number_type(spec, "number"); }
-  static Json type_of(const FieldSpec& spec, const Eigen::Vector2d&) { return pair_type(spec); }
   static Json type_of(const FieldSpec& spec, const std::vector<Eigen::Vector2d>&) {
-    return {{"type", "array"}, {"items", pair_type(spec)}, {"minItems", spec.min_count}};
+    return {{"type", "array"}, {"items", type_of(spec, Eigen::Vector2d())}, {"minItems", spec.min_count}};
+  }
+  static Json type_of(const FieldSpec& spec, const std::vector<std::string>&) {
+    return {{"type", "array"},
+            {"items", {{"type", "string"}, {"pattern", name_pattern}}},
+            {"maxItems", spec.max_count},
+            {"uniqueItems", true}};
   }
   static Json type_of(const FieldSpec& spec, const std::string&) {
     Json schema = {{"type", "string"}};
@@ -113,7 +120,10 @@ class SchemaWriter : public Fields {
     return schema;
   }
 
-  static Json to_json(const Eigen::Vector2d& point) { return {point.x(), point.y()}; }
+  template <int N>
+  static Json to_json(const Eigen::Vector<double, N>& point) {
+    return std::vector<double>(point.begin(), point.end());
+  }
   static Json to_json(const std::vector<Eigen::Vector2d>& points) {
     Json list = Json::array();
     for (const Eigen::Vector2d& point : points) list.push_back(to_json(point));

@@ -20,6 +20,9 @@ struct Thing {
   Eigen::Vector2d corner{1, 2};
   std::vector<Eigen::Vector2d> line;
   std::vector<double> items;
+  Eigen::Vector3d eye{1, 2, 3};
+  Eigen::Vector2d size{64, 32};
+  std::vector<std::string> shown{"a"};
 };
 
 void describe(Fields& fields, Thing& thing) {
@@ -34,6 +37,9 @@ void describe(Fields& fields, Thing& thing) {
       "items", thing.items,
       [](Fields& inner, double& item) { inner.number("v_m_s", item, at_least(0), "speed", Need::required); },
       "items");
+  fields.vector3("eye_m", thing.eye, between(-9, 9), "eye");
+  fields.vector2("size_px", thing.size, even_between(2, 100), "size");
+  fields.names("shown", thing.shown, 2, "shown");
 }
 
 struct ReadThing {
@@ -59,7 +65,8 @@ ReadThing read(std::string_view text) {
 TEST(ReadFields, ReadsEveryKindOfValue) {
   const ReadThing result = read(
       "length_m: 2\nangle_deg: 90\ncount: 7\nflag: true\nword: green\ncorner_m: [3, 4.5]\n"
-      "line_m: [[0, 0], [-1, 2]]\nitems: [{v_m_s: 1}, {v_m_s: 2}]\n");
+      "line_m: [[0, 0], [-1, 2]]\nitems: [{v_m_s: 1}, {v_m_s: 2}]\n"
+      "eye_m: [-1, 0.5, 9]\nsize_px: [100, 2]\nshown: [seif, \"5\"]\n");
   EXPECT_EQ(result.problems, "");
   EXPECT_EQ(result.thing.length, 2.0);
   EXPECT_DOUBLE_EQ(result.thing.angle, std::numbers::pi / 2);
@@ -69,14 +76,17 @@ TEST(ReadFields, ReadsEveryKindOfValue) {
   EXPECT_EQ(result.thing.corner, Eigen::Vector2d(3, 4.5));
   EXPECT_EQ(result.thing.line.at(1), Eigen::Vector2d(-1, 2));
   EXPECT_EQ(result.thing.items, (std::vector<double>{1, 2}));
+  EXPECT_EQ(result.thing.eye, Eigen::Vector3d(-1, 0.5, 9));
+  EXPECT_EQ(result.thing.size, Eigen::Vector2d(100, 2));
+  EXPECT_EQ(result.thing.shown, (std::vector<std::string>{"seif", "5"}));
 }
 
 TEST(ReadFields, WritesDefaultsIntoTheDocumentAndKeepsTheUsersText) {
   const ReadThing result = read("length_m: 2.50e0\n");
   EXPECT_EQ(result.problems, "");
-  EXPECT_EQ(
-      result.document,
-      "length_m: 2.50e0\nangle_deg: 30\ncount: 3\nflag: false\nword: red\ncorner_m: [1, 2]\nitems: []\n");
+  EXPECT_EQ(result.document,
+            "length_m: 2.50e0\nangle_deg: 30\ncount: 3\nflag: false\nword: red\ncorner_m: [1, 2]\nitems: []\n"
+            "eye_m: [1, 2, 3]\nsize_px: [64, 32]\nshown: [a]\n");
 }
 
 TEST(ReadFields, ReportsEveryProblemAtItsPlace) {
@@ -114,6 +124,33 @@ TEST(ReadFields, RefusesWhatIsNoNumber) {
   for (const char* text : {"5", "+5", "5.", ".5", "5e0", "1E-2"}) {
     EXPECT_EQ(read(std::string("length_m: ") + text + "\n").problems, "") << text;
   }
+}
+
+TEST(ReadFields, RefusesVectorsOfAnotherLength) {
+  EXPECT_EQ(read("eye_m: [1, 2]\n").problems, "f:1:8: 'eye_m' must be a triple [x, y, z], not a list\n");
+  EXPECT_EQ(read("corner_m: [1, 2, 3]\n").problems, "f:1:11: 'corner_m' must be a pair [x, y], not a list\n");
+  EXPECT_EQ(read("eye_m: [1, 2, 10]\n").problems,
+            "f:1:15: 'eye_m' must be at least -9 and at most 9 m, not '10'\n");
+  EXPECT_EQ(read("eye_m: 5\n").thing.eye, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(ReadFields, RefusesWhatIsNotEven) {
+  EXPECT_EQ(read("size_px: [3, 2.5]\n").problems,
+            "f:1:11: 'size_px' must be a multiple of 2, at least 2 and at most 100 px, not '3'\n"
+            "f:1:14: 'size_px' must be a multiple of 2, at least 2 and at most 100 px, not '2.5'\n");
+  EXPECT_NE(read("size_px: [0, 102]\n").problems, "");
+  EXPECT_EQ(read("size_px: [2, 100]\n").problems, "");
+}
+
+TEST(ReadFields, RefusesListsThatAreNoNames) {
+  EXPECT_EQ(read("shown: seif\n").problems, "f:1:8: 'shown' must be a list of names, not 'seif'\n");
+  EXPECT_EQ(read("shown: [a, b, c]\n").problems, "f:1:8: 'shown' must have at most 2 names, not 3\n");
+  EXPECT_EQ(read("shown: [a, a]\n").problems, "f:1:12: 'a' stands twice\n");
+  EXPECT_EQ(read("shown: [a, 5]\n").problems, "f:1:12: 'shown' must be a text (put it in quotes), not '5'\n");
+  EXPECT_EQ(read("shown: [{}, []]\n").problems,
+            "f:1:9: 'shown' must be a text, not a map\nf:1:13: 'shown' must be a text, not a list\n");
+  EXPECT_NE(read("shown: [\"a b\"]\n").problems.find("letters, digits"), std::string::npos);
+  EXPECT_EQ(read("shown: [a, a]\n").thing.shown, std::vector<std::string>{"a"});
 }
 
 TEST(ReadFields, RefusesIntegersThatDoNotFit) {

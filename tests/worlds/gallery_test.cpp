@@ -56,6 +56,7 @@ TEST_P(EveryGalleryWorld, ResolvesToAFileThatLoadsToTheSameBits) {
     EXPECT_EQ(a.estimators[i].name, b.estimators[i].name);
     EXPECT_EQ(a.estimators[i].options, b.estimators[i].options);
   }
+  test::expect_equal(a.film, b.film);
 }
 
 TEST_P(EveryGalleryWorld, LastsAsLongAsItsPathTakes) {

@@ -200,6 +200,49 @@ TEST(LoadWorld, RefusesEstimatorsThatAreNone) {
   EXPECT_NE(problems_of("estimators: {seif_report: {theta_x: 0}}\n").find("at least 1"), std::string::npos);
 }
 
+TEST(LoadWorld, ReadsHowARunIsFilmed) {
+  const Folder folder;
+  const LoadResult result = load_text(folder,
+                                      "estimators: {seif: {}, ekf: {}}\n"
+                                      "film: {size_px: [640, 360], fps: 25, speed: 2.5, camera: fixed, "
+                                      "eye_m: [1, 2, 3], target_m: [4, 5, 0.1],\n"
+                                      "  estimators: [ekf], layers: {rays: false, legend: false}}\n");
+  ASSERT_TRUE(result.world) << text_of(result.problems);
+  const Film& film = result.world->film;
+  Film expected{640, 360, 25, 2.5, FilmCamera::fixed, {1, 2, 3}, {4, 5, 0.1}, {"ekf"}, {}};
+  expected.layers.rays = false;
+  expected.layers.legend = false;
+  test::expect_equal(film, expected);
+  const LoadResult again = load_world(folder.write("resolved.yaml", result.resolved), {}, fake_estimators());
+  ASSERT_TRUE(again.world) << text_of(again.problems);
+  test::expect_equal(again.world->film, film);
+  test::expect_equal(load_text(folder, "{}").world.value().film, Film{});
+}
+
+TEST(LoadWorld, GivesEachLayerOfAFilmItsOwnSwitch) {
+  const Folder folder;
+  for (const FilmLayer& layer : film_layers) {
+    const LoadResult result = load_text(folder, "{}", {"film.layers." + std::string(layer.name) + "=false"});
+    ASSERT_TRUE(result.world) << text_of(result.problems);
+    Film expected;
+    expected.layers.*layer.shown = false;
+    test::expect_equal(result.world->film, expected);
+  }
+}
+
+TEST(LoadWorld, RefusesFilmsThatCannotBeMade) {
+  EXPECT_EQ(problems_of("film: {camera: fixed, eye_m: [1, 2, 3], target_m: [1, 2, 3]}\n"),
+            "1:30: 'eye_m' must differ from 'target_m', or the camera looks nowhere\n");
+  EXPECT_EQ(problems_of("film: {camera: chase, eye_m: [1, 2, 3], target_m: [1, 2, 3]}\n"), "");
+  EXPECT_EQ(problems_of("estimators: {ekf: {}, seif: {}}\nfilm: {estimators: [ekf, sief]}\n"),
+            "2:26: there is no estimator 'sief' to film (did you mean 'seif'?)\n");
+  EXPECT_EQ(problems_of("estimators: {ekf: {}}\n", {"film.estimators=[batch]"}),
+            "--set film.estimators=[batch]: there is no estimator 'batch' to film\n");
+  EXPECT_EQ(problems_of("{}", {"film.layers.ray=false"}),
+            "--set film.layers.ray=false: unknown key 'ray' (did you mean 'rays'?)\n");
+  EXPECT_NE(problems_of("film: {camera: overveiw}\n").find("did you mean 'overview'?"), std::string::npos);
+}
+
 TEST(LoadWorld, ReadsCommandsBesideTheWorldFile) {
   const Folder folder;
   folder.write("runs/moves.csv", "t,v,omega\n0,0.5,0\n1.5,0.25,-0.1\r\n");

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "world_files.hpp"
 
@@ -73,12 +75,18 @@ bool number_is_valid(const Json& schema, const Json& value) {
   const auto number = value.get<double>();
   if (schema.contains("minimum") && number < schema["minimum"].get<double>()) return false;
   if (schema.contains("exclusiveMinimum") && number <= schema["exclusiveMinimum"].get<double>()) return false;
+  const double step = schema.value("multipleOf", 0.0);
+  if (step > 0 && std::fmod(number, step) != 0) return false;
   return !schema.contains("maximum") || number <= schema["maximum"].get<double>();
 }
 
 bool array_is_valid(const Json& schema, const Json& value) {
   if (value.size() < schema.value("minItems", std::size_t{0})) return false;
   if (value.size() > schema.value("maxItems", value.size())) return false;
+  if (schema.value("uniqueItems", false) &&
+      std::set<Json>(value.begin(), value.end()).size() < value.size()) {
+    return false;
+  }
   return std::all_of(value.begin(), value.end(),
                      [&](const Json& item) { return is_valid(schema.value("items", Json(true)), item); });
 }
@@ -88,7 +96,8 @@ bool is_valid(const Json& schema, const Json& value) {
   if (schema.is_boolean()) return schema.get<bool>();
   static const std::regex known(
       "\\$schema|title|description|default|type|enum|const|pattern|not|allOf|if|then|required|properties|"
-      "propertyNames|additionalProperties|items|minItems|maxItems|minimum|maximum|exclusiveMinimum");
+      "propertyNames|additionalProperties|items|minItems|maxItems|uniqueItems|minimum|maximum|"
+      "exclusiveMinimum|multipleOf");
   for (const auto& [keyword, rule] : schema.items()) EXPECT_TRUE(std::regex_match(keyword, known)) << keyword;
 
   if (schema.contains("type") && !has_type(value, schema["type"])) return false;
@@ -151,7 +160,8 @@ class BothRefuse : public testing::Test {
         "  {type: clusters, count: 3}, {type: corridor, points_m: [[1, 5], [5, 5]]}]}\n"
         "obstacles: {boxes: [{x_m: 9, y_m: 9, size_m: [1, 1]}], walls: [{points_m: [[-15, 12], [15, 12]]}]}\n"
         "drive: {mode: waypoints, waypoints_m: [[-8, -8], [8, -8]]}\n"
-        "estimators: {ekf: {}, seif_report: {}, mine: {type: seif_report, K: 3}}\n");
+        "estimators: {ekf: {}, seif_report: {}, mine: {type: seif_report, K: 3}}\n"
+        "film: {estimators: [mine]}\n");
     const LoadResult result = load();
     ASSERT_TRUE(result.world) << test::text_of(result.problems);
     root_ = parse(result.resolved);
@@ -238,6 +248,23 @@ TEST(JsonSchema, AgreesWithTheLoaderOnSingleMistakes) {
       "estimators: {mine: {type: ekf, K: 3}}",
       "estimators: {seif_report: {theta_x: 0}}",
       "estimators: {seif_report: {theta_x: six}}",
+      "film: {size_px: [1280, 721]}",
+      "film: {size_px: [62, 720]}",
+      "film: {size_px: [1280, 7682]}",
+      "film: {size_px: [1280]}",
+      "film: {fps: 0}",
+      "film: {fps: 241}",
+      "film: {fps: 29.97}",
+      "film: {speed: -1}",
+      "film: {camera: above}",
+      "film: {eye_m: [1, 2]}",
+      "film: {target_m: [1, 2, 1e6]}",
+      "film: {layers: {rays: 1}}",
+      "film: {layers: {ray: true}}",
+      "film: {estimators: ekf}",
+      "film: {estimators: [a, b, c]}",
+      "film: {estimators: [a, a]}",
+      "film: {estimators: [a b]}",
   };
   const Folder folder;
   for (const std::string& text : mistakes) {

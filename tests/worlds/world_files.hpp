@@ -1,6 +1,8 @@
 // What the tests of world files share: files that last as long as a test, and estimators that are none.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -8,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "worlds/film_layers.hpp"
 #include "worlds/load.hpp"
 
 namespace worlds::test {
@@ -67,6 +70,19 @@ inline std::string text_of(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += to_string(problem) + '\n';
   return text;
+}
+
+inline void expect_equal(const Film& a, const Film& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.fps, b.fps);
+  EXPECT_EQ(a.speed, b.speed);
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.eye, b.eye);
+  EXPECT_EQ(a.target, b.target);
+  EXPECT_EQ(a.estimators, b.estimators);
+  for (const FilmLayer& layer : film_layers)
+    EXPECT_EQ(a.layers.*layer.shown, b.layers.*layer.shown) << layer.name;
 }
 
 inline LoadResult load_text(const Folder& folder, std::string_view text,
