@@ -9,7 +9,7 @@ packages=(
   "g++                   C++20 compiler"
   "cmake                 configures the build"
   "ninja-build           builds"
-  "pkg-config            finds Bullet and OSMesa"
+  "pkg-config            finds Bullet"
   "git                   tells the version"
   "libbullet-dev         physics, in double precision"
   "libeigen3-dev         linear algebra"
@@ -22,6 +22,11 @@ packages=(
   "libgtest-dev          tests"
   "libbenchmark-dev      benchmarks"
   "libosmesa6-dev        renders films without a display"
+  "libgl-dev             declares OpenGL's core functions"
+  "libfreetype-dev       draws the letters of films"
+  "fonts-roboto-unhinted the letters themselves"
+  "libpng-dev            writes and reads images"
+  "ffmpeg                encodes films"
 )
 
 say() { printf 'set-up: %s\n' "$*" >&2; }

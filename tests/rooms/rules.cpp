@@ -35,7 +35,7 @@ const std::vector<Room>& all_rooms() {
        {"sim/render/"},
        false,
        {"Eigen3::Eigen"},
-       {"PkgConfig::osmesa", "fmt::fmt", "seifbed_flags"}},
+       {"OSMesa::headers", "Freetype::Freetype", "PNG::PNG", "${CMAKE_DL_LIBS}", "seifbed_flags"}},
       {"sim",
        {"sim/", "worlds/"},
        false,
@@ -75,9 +75,10 @@ bool is_upper(std::string_view word, std::size_t at) {
   return at < word.size() && std::isupper(static_cast<unsigned char>(word[at])) != 0;
 }
 
-const std::array<Library, 7>& libraries() {
+const std::array<Library, 9>& libraries() {
   using View = std::string_view;
-  static constexpr std::array<Library, 7> all = {{
+  constexpr auto in_render = [](View path) { return is_inside(path, "sim/render"); };
+  static constexpr std::array<Library, 9> all = {{
       {"Bullet",
        [](View include) {
          return include.starts_with("bt") || include.starts_with("Bullet") ||
@@ -89,8 +90,11 @@ const std::array<Library, 7>& libraries() {
                 !path.starts_with("sim/kinematic_simulator.");
        }},
       {"OSMesa", [](View include) { return include.starts_with("GL/") || include.starts_with("EGL/"); },
-       [](View word) { return word.starts_with("OSMesa") || word.starts_with("GL_"); },
-       [](View path) { return is_inside(path, "sim/render"); }},
+       [](View word) { return word.starts_with("OSMesa") || word.starts_with("GL_"); }, in_render},
+      {"FreeType", [](View include) { return include == "ft2build.h" || include.starts_with("freetype/"); },
+       [](View word) { return word.starts_with("FT_"); }, in_render},
+      {"libpng", [](View include) { return include == "png.h" || include.starts_with("libpng"); },
+       [](View word) { return word.starts_with("png_"); }, in_render},
       {"yaml-cpp", [](View include) { return include.starts_with("yaml-cpp/"); },
        [](View word) { return word == "YAML"; },
        [](View path) { return is_inside(path, "worlds") && !is_header(path); }},
@@ -103,7 +107,8 @@ const std::array<Library, 7>& libraries() {
        [](View word) { return word == "ceres"; },
        [](View path) { return is_inside(path, "harness") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
-       [](View word) { return word == "CLI"; }, [](View path) { return is_inside(path, "harness"); }},
+       [](View word) { return word == "CLI"; },
+       [](View path) { return is_inside(path, "harness") || is_inside(path, "tests/harness"); }},
   }};
   return all;
 }
@@ -112,11 +117,15 @@ std::string at(std::string_view path, int line, const std::string& what) {
   return std::string(path) + ":" + std::to_string(line) + ": " + what;
 }
 
+/// A room's target, and the folder of its tests.
+std::string_view name_of(const Room& room) { return room.folder.substr(room.folder.rfind('/') + 1); }
+
 /// The room of a file, or of the file that a test is about; null for what is in none.
 const Room* room_of(std::string_view path) {
-  if (is_inside(path, "tests")) path.remove_prefix(std::string_view("tests/").size());
-  const auto found =
-      std::ranges::find_if(all_rooms(), [&](const Room& room) { return is_inside(path, room.folder); });
+  const bool test = is_inside(path, "tests");
+  if (test) path.remove_prefix(std::string_view("tests/").size());
+  const auto found = std::ranges::find_if(
+      all_rooms(), [&](const Room& room) { return is_inside(path, test ? name_of(room) : room.folder); });
   return found == all_rooms().end() ? nullptr : &*found;
 }
 
@@ -307,7 +316,7 @@ Findings check_cmake_lists(const TextFile& file) {
                                 "target_include_directories"};
   const Room* room = room_of(file.path);
   if (room == nullptr) return {at(file.path, 1, "is in no room")};
-  const std::string_view target = room->folder.substr(room->folder.rfind('/') + 1);
+  const std::string_view target = name_of(*room);
   Findings findings;
   int libraries_made = 0;
   for (const Command& command : parse_cmake(file.text)) {

@@ -30,6 +30,7 @@ TEST(Arrows, MayBeFollowed) {
   }
   EXPECT_EQ(check_include("tests/seif/ekf_test.cpp", R"("seif/ekf.hpp")"), none);
   EXPECT_EQ(check_include("tests/seif/ekf_test.cpp", R"("oracle.hpp")"), none);
+  EXPECT_EQ(check_include("tests/render/text_test.cpp", R"("sim/render/scene.hpp")"), none);
 }
 
 TEST(Arrows, MayNotBeCrossed) {
@@ -49,6 +50,7 @@ TEST(Arrows, MayNotBeCrossed) {
       {"sim/render/scene.cpp", "sim/simulator.hpp"},
       {"sim/render/scene.cpp", "worlds/world.hpp"},
       {"tests/seif/ekf_test.cpp", "sim/simulator.hpp"},
+      {"tests/render/text_test.cpp", "sim/simulator.hpp"},
       {"tests/sim/simulator_test.cpp", "tests/seif/oracle.hpp"},
       {"tests/sim/simulator_test.cpp", "../seif/oracle.hpp"},
       {"harness/run.cpp", "tests/seif/oracle.hpp"},
@@ -76,6 +78,8 @@ TEST(Libraries, MayBeUsedAtHome) {
   EXPECT_EQ(check("sim/vehicle.hpp", "#pragma once\n#include <btBulletDynamicsCommon.h>\nbtVector3 p;\n"),
             none);
   EXPECT_EQ(check_include("sim/render/canvas.cpp", "<GL/osmesa.h>"), none);
+  EXPECT_EQ(check("sim/render/font.cpp", "#include <ft2build.h>\nFT_Library library;\n"), none);
+  EXPECT_EQ(check("sim/render/png.cpp", "#include <png.h>\npng_image image;\n"), none);
   EXPECT_EQ(check("worlds/load.cpp", "#include <yaml-cpp/yaml.h>\nYAML::Node node;\n"), none);
   EXPECT_EQ(check_include("harness/summary.cpp", "<nlohmann/json.hpp>"), none);
   EXPECT_EQ(check_include("harness/main.cpp", "<CLI/CLI.hpp>"), none);
@@ -92,6 +96,9 @@ TEST(Libraries, StayAtHome) {
       {"tests/sim/simulator_test.cpp", "bullet/btBulletCollisionCommon.h"},
       {"sim/simulator.cpp", "GL/osmesa.h"},
       {"harness/film.cpp", "GL/gl.h"},
+      {"harness/film.cpp", "png.h"},
+      {"sim/simulator.cpp", "ft2build.h"},
+      {"harness/plot.cpp", "freetype/freetype.h"},
       {"worlds/load.hpp", "yaml-cpp/yaml.h"},
       {"harness/replay.cpp", "yaml-cpp/yaml.h"},
       {"harness/summary.hpp", "nlohmann/json.hpp"},
@@ -111,6 +118,9 @@ TEST(Libraries, StayAtHome) {
 TEST(Libraries, AreNotNamedAbroadEither) {
   const std::vector<std::pair<std::string, std::string>> names = {{"sim/simulator.hpp", "btRigidBody"},
                                                                   {"harness/film.cpp", "OSMesaContext"},
+                                                                  {"harness/film.cpp", "GL_RGB"},
+                                                                  {"harness/film.cpp", "png_image"},
+                                                                  {"tests/render/text_test.cpp", "FT_Face"},
                                                                   {"worlds/load.hpp", "YAML"},
                                                                   {"worlds/schema.hpp", "nlohmann"}};
   for (const auto& [path, name] : names) {
@@ -209,7 +219,8 @@ TEST(LinkLines, MaySayWhatTheArchitectureSays) {
             none);
   EXPECT_EQ(check_cmake_lists({"sim/render/CMakeLists.txt",
                                "add_library(render STATIC a.cpp)\n"
-                               "target_link_libraries(render PRIVATE PkgConfig::osmesa seifbed_flags)\n"}),
+                               "target_link_libraries(render PUBLIC Eigen3::Eigen PRIVATE OSMesa::headers "
+                               "Freetype::Freetype PNG::PNG ${CMAKE_DL_LIBS} seifbed_flags)\n"}),
             none);
   EXPECT_EQ(
       check_cmake_lists({"harness/CMakeLists.txt",
@@ -228,7 +239,9 @@ TEST(LinkLines, MayNotGoAgainstTheArrows) {
       {"worlds", "PRIVATE seif", "seif privately"},
       {"sensors", "PUBLIC seif sim", "sim publicly"},
       {"sim", "worlds PkgConfig::bullet", "PkgConfig::bullet publicly"},
-      {"sim", "PUBLIC worlds PRIVATE PkgConfig::osmesa", "PkgConfig::osmesa privately"},
+      {"sim", "PUBLIC worlds PRIVATE OSMesa::headers", "OSMesa::headers privately"},
+      {"sim", "PUBLIC worlds PRIVATE Freetype::Freetype", "Freetype::Freetype privately"},
+      {"harness", "PUBLIC sim PRIVATE PNG::PNG", "PNG::PNG privately"},
       {"sim", "PUBLIC worlds PRIVATE seif", "seif privately"},
       {"harness", "PUBLIC sim nlohmann_json::nlohmann_json", "nlohmann_json::nlohmann_json publicly"},
       {"harness", "PUBLIC sim PRIVATE PkgConfig::bullet", "PkgConfig::bullet privately"},

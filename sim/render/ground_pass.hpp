@@ -1,0 +1,31 @@
+// The ground with its grid, in one view.
+#pragma once
+
+#include <vector>
+
+#include "sim/render/frame.hpp"
+#include "sim/render/sunlight.hpp"
+#include "sim/render/vertex_array.hpp"
+
+namespace render {
+
+class GroundPass {
+ public:
+  explicit GroundPass(const Gl& gl);
+  /// Into the plain image: what stands on it comes later. Shadows are looked for in the shades alone: that is
+  /// dear.
+  void draw(const Ground& ground, const Projection& projection, const Frame& frame, const Sunlight& sunlight,
+            const std::vector<Shade>& shades);
+
+ private:
+  void set(const Program& program, const Ground& ground, const Projection& projection,
+           const Frame& frame) const;
+
+  const Gl& gl_;
+  Program open_;
+  Program shaded_;
+  VertexArray parts_;
+  std::vector<Shade> whole_;  // the ground; one entry
+};
+
+}  // namespace render

@@ -1,0 +1,27 @@
+// Flat marks in one view.
+#pragma once
+
+#include "sim/render/capsules.hpp"
+#include "sim/render/ellipses.hpp"
+
+namespace render {
+
+class MarksPass {
+ public:
+  explicit MarksPass(const Gl& gl);
+  /// Over everything.
+  void draw(const Marks& marks, const Projection& projection, const Frame& frame);
+  /// Behind the things of the layer that are nearer.
+  void draw_behind(const Targets& layer, const Marks& marks, const Projection& projection,
+                   const Frame& frame);
+
+ private:
+  void collect(const Marks& marks, const Projection& projection, const Frame& frame);
+
+  EllipsePainter ellipse_painter_;
+  CapsulePainter capsule_painter_;
+  std::vector<ScreenEllipse> ellipses_;
+  std::vector<Capsule> capsules_;
+};
+
+}  // namespace render

@@ -1,0 +1,165 @@
+// What is to be drawn, as a value: a world seen by one or more cameras, and a flat overlay on top of it all.
+// World frame: x east, y north, z up. Pixels count from the upper left corner of the image, x to the right, y
+// down; all lengths in pixels are of the image as it is written.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace render {
+
+/// sRGB, each in [0, 1]; alpha is not premultiplied.
+struct Colour {
+  float r = 0.0F;
+  float g = 0.0F;
+  float b = 0.0F;
+  float a = 1.0F;
+};
+
+struct Camera {
+  Eigen::Vector3d eye = {0.0, -10.0, 10.0};          // p_world [m]
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();  // p_world [m]
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();     // [-] not along the line of sight
+  double field_of_view = 0.7;                        // [rad] from the bottom to the top
+  double height = 0.0;                               // [m] what is seen from bottom to top; 0: in perspective
+};
+
+enum class Shape {
+  box,       // edges along x, y, z
+  cylinder,  // about the z axis
+};
+
+/// A shape of the size given, about its own origin.
+struct Solid {
+  Shape shape = Shape::box;
+  Eigen::Isometry3d T_world_solid = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  // [m] of the box around it
+  Colour colour;
+};
+
+/// An upright cylinder that stands on the ground. There may be very many.
+struct Post {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world [m]
+  float radius = 0.1F;                                 // [m]
+  float height = 0.5F;                                 // [m]
+  Colour colour;
+};
+
+/// A straight line with round ends.
+struct Stroke {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  // p_world [m]
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();    // p_world [m]
+  float width = 2.0F;                              // [px]
+  Colour colour;
+};
+
+/// A horizontal ellipse, or a sector of it: the points centre + axes (r cos a, r sin a), r <= 1, |a| <=
+/// half_angle.
+struct Ellipse {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    // p_world [m]
+  Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();  // (2 x 2) [m]
+  double half_angle = std::numbers::pi;                // [rad]
+  float outline_width = 1.5F;                          // [px]
+  Colour outline;
+  Colour fill;
+};
+
+/// A disk that faces the camera and keeps its size on the image.
+struct Dot {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // p_world [m]
+  float radius = 3.0F;                               // [px]
+  Colour colour;
+};
+
+/// Flat marks, painted in this order: ellipses, strokes, dots.
+struct Marks {
+  std::vector<Ellipse> ellipses;
+  std::vector<Stroke> strokes;
+  std::vector<Dot> dots;
+};
+
+/// Things of the world. Solids and posts throw shadows.
+struct Things {
+  std::vector<Solid> solids;
+  std::vector<Post> posts;
+  Marks marks;         // hidden by solids and posts that stand before them
+  Marks marks_on_top;  // seen through everything
+};
+
+struct Ground {
+  Eigen::Vector2d size = {40.0, 40.0};  // [m] centred on the origin
+  double grid = 1.0;                    // [m] between its lines; every fifth is stronger; 0: none
+  Colour colour = {0.93F, 0.94F, 0.95F};
+  Colour lines = {0.80F, 0.82F, 0.84F};
+};
+
+/// A part of the image: one camera's view.
+struct View {
+  int x = 0;       // [px] of its left edge
+  int y = 0;       // [px] of its upper edge
+  int width = 0;   // [px]
+  int height = 0;  // [px]
+  Camera camera;
+  Things things;  // seen in this view alone
+};
+
+// The overlay. [px] everywhere.
+
+struct Rectangle {
+  Eigen::Vector2f min = Eigen::Vector2f::Zero();
+  Eigen::Vector2f max = Eigen::Vector2f::Zero();
+  Colour colour;
+};
+
+enum class Align { left, centre, right };
+enum class Weight { regular, bold };
+
+/// One line of UTF-8 text; what the font does not have shows as a box.
+struct Text {
+  Eigen::Vector2f position = Eigen::Vector2f::Zero();  // where its baseline begins, is centred, or ends
+  float size = 14.0F;                                  // of the em
+  Align align = Align::left;
+  Weight weight = Weight::regular;
+  Colour colour;
+  std::string text;
+};
+
+struct Polyline {
+  std::vector<Eigen::Vector2f> points;
+  float width = 1.5F;
+  Colour colour;
+};
+
+/// What lies between two curves over the same x.
+struct Band {
+  std::vector<Eigen::Vector3f> points;  // x, y of the one, y of the other
+  Colour colour;
+};
+
+/// A picture of square cells with sharp edges.
+struct Raster {
+  Eigen::Vector2f min = Eigen::Vector2f::Zero();
+  Eigen::Vector2f max = Eigen::Vector2f::Zero();
+  int columns = 0;                 // [-]
+  int rows = 0;                    // [-]
+  std::vector<std::uint8_t> rgba;  // (rows x columns x 4) from the top
+};
+
+using OverlayItem = std::variant<Rectangle, Text, Polyline, Band, Raster>;
+
+/// An image in the making.
+struct Scene {
+  Colour sky = {0.98F, 0.985F, 0.99F};  // also what far ground fades into
+  Ground ground;
+  bool shadows = true;
+  Things things;  // seen in every view
+  std::vector<View> views;
+  std::vector<OverlayItem> overlay;  // painted in this order, over all views
+};
+
+}  // namespace render
