@@ -50,7 +50,7 @@ void add_replay(CommandLine line) {
       ->allow_extra_args(false);
   command
       ->add_option("--set", arguments->choices.overrides,
-                   "Set a value of estimators, scoring or seed: path.to.key=value")
+                   "Set a value of estimators, scoring, film or seed: path.to.key=value")
       ->allow_extra_args(false);
   command->add_option("--seed", arguments->choices.seed, "Seed of the estimators that draw")
       ->type_name("INT");

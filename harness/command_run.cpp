@@ -4,6 +4,7 @@
 
 #include "harness/commands.hpp"
 #include "harness/estimator_schemas.hpp"
+#include "harness/film/film.hpp"
 #include "harness/prepared_run.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/version.hpp"
@@ -17,6 +18,7 @@ struct RunArguments {
   std::vector<std::string> overrides;
   std::string seed;                // checked as part of the world; empty: the file's
   std::optional<double> duration;  // [s]
+  bool film = false;
   OutputArguments output;
 };
 
@@ -34,7 +36,14 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   PreparedRun run = prepare_run(world, registry);
   open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
   write_world(run.plan.folder, world, loaded.resolved);
-  return print_result(execute(run), run.plan.folder, arguments.output);
+  if (!arguments.film) return print_result(execute(run), run.plan.folder, arguments.output);
+  Film film(film_plan(world), *run.log, *run.believers,
+            make_frame_sink(run.plan.folder / "film.mp4",
+                            {world.film.width, world.film.height, world.film.fps}, false));
+  const RunResult result = execute(run, &film);
+  const int code = print_result(result, run.plan.folder, arguments.output);
+  film.finish(result.error.empty() && !result.summary.interrupted);
+  return code;
 }
 
 }  // namespace
@@ -47,6 +56,7 @@ void add_run(CommandLine line) {
       "  seifbed run worlds/courtyard.yaml\n"
       "  seifbed run worlds/courtyard.yaml --seed 7 --duration 60 --out /tmp/seven\n"
       "  seifbed run worlds/courtyard.yaml --set drive.pose_from=odometry --set estimators.ekf={}\n"
+      "  seifbed run worlds/courtyard.yaml --film --set film.camera=chase --set film.layers.rays=false\n"
       "  seifbed run worlds/courtyard.yaml --json | jq .estimators.ekf.nees_pose");
   auto arguments = std::make_shared<RunArguments>();
   command->add_option("WORLD", arguments->world, "World file")->required();
@@ -54,6 +64,9 @@ void add_run(CommandLine line) {
       ->allow_extra_args(false);
   command->add_option("--seed", arguments->seed, "Seed of everything that is random")->type_name("INT");
   command->add_option("--duration", arguments->duration, "Simulated time [s]");
+  command->add_flag("--film", arguments->film,
+                    "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
+                    "drawing between the updates makes their times a little longer");
   add_output_options(*command, arguments->output, "runs/<world>-<seed>");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] { return run_world(*arguments, registry); });

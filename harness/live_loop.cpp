@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/csv_reader.hpp"
 #include "harness/run_folder.hpp"
@@ -85,11 +86,11 @@ std::function<seif::Pose2()> steering_pose(const std::string& pose_from, const B
   };
 }
 
-LiveLoop::LiveLoop(Stream& stream, Believers& believers, Recorder& recorder, const LogDescription& log,
-                   const worlds::Scoring& scoring)
+LiveLoop::LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener*> listeners,
+                   const LogDescription& log, const worlds::Scoring& scoring)
     : stream_(stream),
       believers_(believers),
-      recorder_(recorder),
+      listeners_(std::move(listeners)),
       log_(log),
       scoring_(scoring),
       times_(believers.estimators.size()),
@@ -116,7 +117,7 @@ void LiveLoop::run(const std::atomic<bool>& stop, const std::function<void(const
 void LiveLoop::take(const OdometryEvent& event) {
   counts_.t = event.odometry.t;
   note_truth(event.truth);
-  recorder_.odometry(event);
+  for (RunListener* listener : listeners_) listener->odometry(event);
   believers_.dead_reckoning = believers_.dead_reckoning * event.odometry.T_previous_current;
   for (std::size_t i = 0; i < believers_.estimators.size(); ++i) motion_update(i, event.odometry);
 }
@@ -139,15 +140,15 @@ void LiveLoop::motion_update(std::size_t index, const seif::Odometry& odometry) 
 void LiveLoop::take(const ScanEvent& event) {
   counts_.t = event.scan.t;
   ++counts_.updates;
-  recorder_.scan(event);
-  recorder_.dead_reckoning(event.scan.t, believers_.dead_reckoning);
+  for (RunListener* listener : listeners_) listener->scan(event);
+  for (RunListener* listener : listeners_) listener->dead_reckoning(event.scan.t, believers_.dead_reckoning);
   note_truth(event.truth);
   for (std::size_t i = 0; i < believers_.estimators.size(); ++i) measurement_update(i, event);
   const double intervals = (counts_.t - log_.start_t) / scoring_.interval + rounding;
   if (intervals < static_cast<double>(intervals_scored_ + 1)) return;
   intervals_scored_ = static_cast<std::int64_t>(intervals);
   score_consistency();
-  recorder_.flush();
+  for (RunListener* listener : listeners_) listener->scored();
 }
 
 void LiveLoop::note_truth(const std::optional<TruePose>& truth) {
@@ -185,7 +186,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.anchoring = counts.anchoring;
   record.times = times_[index];
   times_[index] = {};
-  recorder_.update(index, record);
+  for (RunListener* listener : listeners_) listener->update(index, record);
 }
 
 const seif::Scan& LiveLoop::scaled(const seif::Scan& scan, double sd_factor) {
@@ -203,7 +204,8 @@ void LiveLoop::score_consistency() {
     if (!estimator.failure.empty()) continue;
     std::optional<ConsistencyRecord> record;
     guard(estimator, counts_.t, [&] { record = consistency_of(estimator); });
-    if (record) recorder_.consistency(i, *record);
+    if (!record) continue;
+    for (RunListener* listener : listeners_) listener->consistency(i, *record);
   }
 }
 
@@ -251,11 +253,10 @@ ConsistencyRecord LiveLoop::consistency_of(const LiveEstimator& estimator) const
 
 void LiveLoop::finish() {
   if (counts_.updates > 0 && last_scoring_t_ != counts_.t) score_consistency();
-  for (std::size_t i = 0; i < believers_.estimators.size(); ++i) write_map(i);
-  recorder_.close();
+  for (std::size_t i = 0; i < believers_.estimators.size(); ++i) tell_map(i);
 }
 
-void LiveLoop::write_map(std::size_t index) {
+void LiveLoop::tell_map(std::size_t index) {
   LiveEstimator& estimator = believers_.estimators[index];
   std::vector<MapRecord> records;
   guard(estimator, counts_.t, [&] {
@@ -270,7 +271,7 @@ void LiveLoop::write_map(std::size_t index) {
       if (belief->landmarks.at(k).allFinite()) records[k].covariance = belief->landmarks[k];
     }
   });
-  recorder_.map(index, records);
+  for (RunListener* listener : listeners_) listener->map(index, records);
 }
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The live loop: every event goes to every estimator in turn, and to the recorder.
+// The live loop: every event goes to every estimator in turn, and to those who follow the run.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "harness/log_description.hpp"
-#include "harness/recorder.hpp"
+#include "harness/run_listener.hpp"
 #include "harness/stream.hpp"
 #include "seif/estimator.hpp"
 #include "seif/registry.hpp"
@@ -56,18 +56,18 @@ struct LoopCounts {
 };
 
 /// Runs estimators on a stream. An update of an estimator is timed from its first motion update since the
-/// last scan to the end of its measurement update; recording and scoring are off that path.
+/// last scan to the end of its measurement update; listeners and scoring are off that path.
 class LiveLoop {
  public:
-  /// Keeps references to all four. `log` says where the truth about landmarks is.
-  LiveLoop(Stream& stream, Believers& believers, Recorder& recorder, const LogDescription& log,
-           const worlds::Scoring& scoring);
+  /// Keeps references to all. `log` says where the truth about landmarks is.
+  LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener*> listeners,
+           const LogDescription& log, const worlds::Scoring& scoring);
 
   /// Until the stream ends or `stop` is set; `progress` is called after each scan. May throw what the stream
   /// throws: finish() is in order then too.
   void run(const std::atomic<bool>& stop, const std::function<void(const LoopCounts&)>& progress);
 
-  /// Scores the consistency at the end, writes the maps, closes the files.
+  /// Scores the consistency at the end and tells of the maps.
   void finish();
 
   const LoopCounts& counts() const { return counts_; }
@@ -84,11 +84,11 @@ class LiveLoop {
   void score_consistency();
   ConsistencyRecord consistency_of(const LiveEstimator& estimator) const;
   const TrueLandmark* true_landmark(seif::LandmarkId id) const;
-  void write_map(std::size_t index);
+  void tell_map(std::size_t index);
 
   Stream& stream_;
   Believers& believers_;
-  Recorder& recorder_;
+  std::vector<RunListener*> listeners_;
   const LogDescription& log_;
   worlds::Scoring scoring_;
   LoopCounts counts_;

@@ -33,7 +33,7 @@ FinishedRuns execute_all(const std::vector<PlannedRun>& planned, int jobs, bool 
   std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex done_mutex;
-  RunsProgress progress(quiet, planned.size());
+  CountProgress progress(quiet, planned.size(), "runs");
   const auto work = [&] {
     for (std::size_t i = next++; i < planned.size() && !stop; i = next++) {
       RunResult result = execute_guarded(planned[i]);

@@ -54,7 +54,9 @@ PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World
   return run;
 }
 
-RunResult execute(PreparedRun& run) { return execute(*run.stream, *run.log, *run.believers, run.plan); }
+RunResult execute(PreparedRun& run, RunListener* follower) {
+  return execute(*run.stream, *run.log, *run.believers, run.plan, follower);
+}
 
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {
   if (world.drive.mode == worlds::DriveMode::commands) {

@@ -26,7 +26,7 @@ PreparedRun prepare_run(const worlds::World& world, const seif::Registry& regist
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry);
 
-RunResult execute(PreparedRun& run);
+RunResult execute(PreparedRun& run, RunListener* follower = nullptr);
 
 /// Writes world.yaml to the folder of a run, and beside it what it needs, so that it runs again from there.
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <utility>
 
 namespace harness {
 
@@ -48,14 +49,15 @@ void Progress::show(double t) {
   line_.show(line);
 }
 
-RunsProgress::RunsProgress(bool quiet, std::size_t runs) : line_(quiet), runs_(runs) {}
+CountProgress::CountProgress(bool quiet, std::size_t total, std::string what)
+    : line_(quiet), total_(total), what_(std::move(what)) {}
 
-void RunsProgress::show(std::size_t done) {
+void CountProgress::show(std::size_t done) {
   if (!line_.is_due()) return;
-  std::string line = fmt::format("{} of {} runs", done, runs_);
+  std::string line = fmt::format("{} of {} {}", done, total_, what_);
   if (done > 0) {
     const double each = line_.elapsed() / static_cast<double>(done);
-    line += fmt::format(", {:.0f} s left", each * static_cast<double>(runs_ - done));
+    line += fmt::format(", {:.0f} s left", each * static_cast<double>(total_ - done));
   }
   line_.show(line);
 }

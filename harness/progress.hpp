@@ -42,16 +42,18 @@ class Progress {
   std::optional<double> end_t_;
 };
 
-/// Of many runs.
-class RunsProgress {
+/// Of many things that take about the same time each.
+class CountProgress {
  public:
-  RunsProgress(bool quiet, std::size_t runs);
+  /// `what`: their name in the plural.
+  CountProgress(bool quiet, std::size_t total, std::string what);
 
   void show(std::size_t done);
 
  private:
   StatusLine line_;
-  std::size_t runs_;  // [-]
+  std::size_t total_;  // [-]
+  std::string what_;
 };
 
 }  // namespace harness

@@ -185,7 +185,7 @@ void Recorder::for_each_file(void (CsvWriter::*action)()) {
   }
 }
 
-void Recorder::flush() { for_each_file(&CsvWriter::flush); }
+void Recorder::scored() { for_each_file(&CsvWriter::flush); }
 
 void Recorder::close() { for_each_file(&CsvWriter::close); }
 

@@ -7,6 +7,7 @@
 
 #include "harness/csv_reader.hpp"
 #include "harness/estimator_schemas.hpp"
+#include "worlds/check.hpp"
 #include "worlds/describe.hpp"
 #include "worlds/merge.hpp"
 
@@ -27,11 +28,11 @@ std::optional<worlds::Node> read_settings(const std::filesystem::path& folder,
 }
 
 void check_override(const std::string& assignment) {
-  if (assignment.starts_with("estimators.") || assignment.starts_with("scoring.") ||
-      assignment.starts_with("seed="))
-    return;
-  throw BadInput(fmt::format("--set {}: a replay can set estimators, scoring and seed; the rest is recorded",
-                             assignment));
+  for (const char* settable : {"estimators.", "scoring.", "film.", "seed="}) {
+    if (assignment.starts_with(settable)) return;
+  }
+  throw BadInput(fmt::format(
+      "--set {}: a replay can set estimators, scoring, film and seed; the rest is recorded", assignment));
 }
 
 /// Leaves the estimators that were asked for, in the order of the file; a registered type that is missing
@@ -71,6 +72,7 @@ worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const 
         *document, [&](worlds::Fields& fields) { worlds::describe_world(fields, file, schemas); },
         result.problems);
   }
+  if (document && choices.estimators.empty()) worlds::check_film(*document, file.world, result.problems);
   if (!result.problems.empty()) return result;
   result.world = std::move(file.world);
   result.resolved = worlds::emit(*document);

@@ -6,6 +6,7 @@
 #include "harness/csv_reader.hpp"
 #include "harness/interrupt.hpp"
 #include "harness/progress.hpp"
+#include "harness/recorder.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/version.hpp"
 
@@ -37,17 +38,21 @@ void run_loop(LiveLoop& loop, const LogDescription& log, const RunPlan& plan, Ru
 
 }  // namespace
 
-RunResult execute(Stream& stream, const LogDescription& log, Believers& believers, const RunPlan& plan) {
+RunResult execute(Stream& stream, const LogDescription& log, Believers& believers, const RunPlan& plan,
+                  RunListener* follower) {
   using Clock = std::chrono::steady_clock;
   const std::vector<std::string> names = names_of(believers);
   RunResult result;
   believers.dead_reckoning = log.start.mean;
   Recorder recorder(plan.folder, log, names);
-  LiveLoop loop(stream, believers, recorder, log, plan.scoring);
+  std::vector<RunListener*> listeners = {&recorder};
+  if (follower != nullptr) listeners.push_back(follower);
+  LiveLoop loop(stream, believers, listeners, log, plan.scoring);
   const Clock::time_point begin = Clock::now();
   run_loop(loop, log, plan, result);
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   loop.finish();
+  recorder.close();
 
   Summary& summary = result.summary;
   summary.world = plan.name;

@@ -27,8 +27,10 @@ struct RunResult {
 };
 
 /// Runs the estimators on the stream, records, scores, and writes summary.json. SIGINT and SIGTERM end the
-/// run properly. Throws std::system_error if the run cannot be recorded.
-RunResult execute(Stream& stream, const LogDescription& log, Believers& believers, const RunPlan& plan);
+/// run properly. `follower`, if there is one, is told of everything after it was recorded. Throws
+/// std::system_error if the run cannot be recorded.
+RunResult execute(Stream& stream, const LogDescription& log, Believers& believers, const RunPlan& plan,
+                  RunListener* follower = nullptr);
 
 /// 0: fine; 1: the run or an estimator failed; 2: bad input; 130: interrupted.
 int exit_code(const RunResult& result);

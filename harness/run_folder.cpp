@@ -11,25 +11,11 @@
 #include <vector>
 
 #include "harness/csv_reader.hpp"
+#include "harness/fnv1a.hpp"
 
 namespace harness {
 
 namespace {
-
-/// Fowler, Noll, Vo; RFC 9923 gives the constants.
-class Fnv1a {
- public:
-  void add(std::string_view bytes) {
-    for (const char byte : bytes) {
-      hash_ ^= static_cast<unsigned char>(byte);
-      hash_ *= 0x100000001b3U;
-    }
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
-};
 
 bool is_hashed(const std::string& name) {
   return name == "truth.csv" || name == "odometry.csv" || name == "observations.csv" ||
@@ -78,6 +64,13 @@ std::filesystem::path create_empty_folder(const std::filesystem::path& folder) {
   if (!is_empty)
     throw BadInput(fmt::format("{}: is not empty; a run never writes over another", folder.string()));
   return folder;
+}
+
+std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::filesystem::path file = folder / name;
+  for (int number = 2; std::filesystem::exists(file); ++number)
+    file = folder / fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
+  return file;
 }
 
 TemporaryFolder::TemporaryFolder() {

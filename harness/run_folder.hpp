@@ -18,6 +18,10 @@ std::filesystem::path create_run_folder(const std::filesystem::path& parent, con
 /// Creates this very folder, or takes it if it is there and empty; otherwise throws BadInput.
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 
+/// folder/name, or, if that exists, the same with -2, -3, ... before its extension: the first that nothing
+/// has.
+std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name);
+
 /// A folder of its own where the system keeps such, that goes with all that is in it.
 class TemporaryFolder {
  public:

@@ -55,10 +55,11 @@ void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark
 }
 
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
-  CsvReader rows(folder / (score.name + "_steps.csv"),
-                 {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt",
-                   "cov_tt", "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
-                  {}});
+  CsvReader rows(
+      folder / (score.name + "_steps.csv"),
+      {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
+        "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
+       {}});
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
   while (rows.next()) {

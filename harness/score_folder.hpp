@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/recorder.hpp"
+#include "harness/run_listener.hpp"
 #include "harness/score.hpp"
 
 namespace harness {

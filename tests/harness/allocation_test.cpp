@@ -33,7 +33,7 @@ TEST_P(LiveLoopIn, AllocatesNothingFromTheThirdRoundOn) {
       make_estimators(test::test_registry(), world.estimators, stream.description(), world.seed);
   const std::vector<std::string> names{"seif_report"};
   Recorder recorder(folder.path(), stream.description(), names);
-  LiveLoop loop(stream, believers, recorder, stream.description(), world.scoring);
+  LiveLoop loop(stream, believers, {&recorder}, stream.description(), world.scoring);
   long after_two_rounds = 0;
   long at_the_end = 0;
   const std::atomic<bool> stop = false;

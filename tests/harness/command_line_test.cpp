@@ -1,39 +1,19 @@
 // The program as people call it: exit codes, and what goes to which stream.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "command_call.hpp"
 #include "fixtures.hpp"
 #include "harness/registry.hpp"
 
 namespace harness {
 namespace {
 
+using test::call;
+using test::Called;
 using test::read_file;
 using test::write_file;
-
-struct Called {
-  int exit_code = 0;
-  std::string output;
-  std::string errors;
-};
-
-/// Calls the program inside a folder, with variables of the environment such as "A=1 B=2".
-Called call(const TemporaryFolder& folder, const std::string& arguments,
-            const std::string& environment = "") {
-  const std::string command = "cd '" + folder.path().string() + "' && " + environment +
-                              " '" SEIFBED_PROGRAM "' " + arguments + " 2>errors";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("cannot call the program");
-  Called called;
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) called.output += static_cast<char>(c);
-  called.exit_code = WEXITSTATUS(pclose(pipe));
-  called.errors = read_file(folder / "errors");
-  return called;
-}
 
 void write_world(const TemporaryFolder& folder) {
   write_file(folder / "world.yaml",
@@ -208,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
   const TemporaryFolder folder;
-  for (const std::string command : {"run", "replay", "compare", "validate", "schema", "estimators"}) {
+  for (const std::string command : {"run", "replay", "film", "compare", "validate", "schema", "estimators"}) {
     const Called help = call(folder, command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;

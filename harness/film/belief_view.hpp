@@ -1,0 +1,121 @@
+// What an estimator believes, as it is drawn: only what is in view is read from it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "harness/film/camera_man.hpp"
+#include "harness/film/matrix_picture.hpp"
+#include "harness/film/point_index.hpp"
+#include "harness/film/series.hpp"
+#include "harness/film/stage.hpp"
+#include "harness/film/trail.hpp"
+#include "harness/live_loop.hpp"
+#include "harness/palette.hpp"
+#include "harness/run_listener.hpp"
+#include "sim/render/scene.hpp"
+
+namespace harness {
+
+/// What a frame needs to know of the camera that looks at a belief.
+struct Gaze {
+  Frustum frustum;
+  Area area;             // [m] of the ground that is in view
+  float scale;           // [-] of lengths in pixels
+  float mark_scale;      // [-] the same for what there are thousands of: smaller where the camera is far away
+  double smallest_mark;  // [m] what is shorter than this hides behind the dot of a landmark
+};
+
+class BeliefView {
+ public:
+  /// Charts run from `start` to `end` [s] in `bins` steps. `estimator` must live as long.
+  BeliefView(const LiveEstimator& estimator, Rgb colour, double start, double end, int bins);
+
+  void scan(const ScanEvent& event);
+  void update(const UpdateRecord& record);
+
+  /// Reads what a frame shows. `T_since` is the odometry since the last event, so that the estimate moves as
+  /// smoothly as the robot.
+  void look(const Gaze& gaze, const seif::Pose2& T_since, const worlds::FilmLayers& layers);
+
+  /// Takes note of new landmarks, and reads what is not read for each frame if it is due: the matrix, and
+  /// covariances that must be computed.
+  /// Part of look(); between frames it lets charts know the past.
+  void refresh(const worlds::FilmLayers& layers);
+
+  /// What look() has read.
+  void append(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
+              const std::optional<seif::Pose2>& true_pose, render::Things& things) const;
+
+  const std::string& name() const { return estimator_.name; }
+  const std::string& failure() const { return estimator_.failure; }
+  Rgb colour() const { return colour_; }
+  std::size_t landmarks() const { return means_.size(); }
+  std::int64_t links() const { return links_; }
+  const Series& update_times() const { return update_times_; }        // [us]
+  const Series& position_errors() const { return position_errors_; }  // [m]
+  const Series& three_sigma() const { return three_sigma_; }          // [m]
+  const MatrixPicture& matrix() const { return matrix_; }
+  const seif::Pose2& pose() const { return pose_; }
+
+ private:
+  void read_means(const Gaze& gaze);
+  void read(const std::vector<seif::LandmarkId>& landmarks);
+  void read_couplings(const worlds::FilmLayers& layers);
+  void read_covariances(const worlds::FilmLayers& layers);
+  void read_all_covariances();
+  void note_sigma(const Eigen::Matrix3d& covariance);
+  void append_map(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
+                  render::Things& things) const;
+  void append_uncertainty(seif::LandmarkId id, const Eigen::Vector2d& mean, const Gaze& gaze,
+                          const worlds::FilmLayers& layers, const Stage& stage, render::Marks& marks) const;
+  void append_links(const Gaze& gaze, const worlds::FilmLayers& layers, render::Things& things) const;
+  void append_robot(const Gaze& gaze, const worlds::FilmLayers& layers,
+                    const std::optional<seif::Pose2>& true_pose, render::Things& things) const;
+
+  /// Of something that is not read for each frame.
+  struct Refresh {
+    std::size_t scans = 0;  // [-] since the last one
+    bool was_done = false;
+    /// Whether more than `period` scans have passed, or there was none yet; then it counts as done.
+    bool is_due(std::size_t period);
+  };
+
+  struct DrawnLink {
+    seif::LandmarkId from;
+    seif::LandmarkId to;
+    double strength;  // [-]
+  };
+
+  const LiveEstimator& estimator_;
+  Rgb colour_;
+  Trail trail_;
+  Series update_times_;
+  Series position_errors_;
+  Series three_sigma_;
+  MatrixPicture matrix_;
+
+  PointIndex means_{4.0};              // of all landmarks, each as it was when last read
+  std::vector<seif::LandmarkId> new_;  // seen since the last frame and perhaps in the map by now
+  std::size_t turn_ = 0;               // whose mean is read next although it is out of view
+  std::int64_t links_ = 0;
+  double t_ = 0.0;  // [s] of the last update
+  Refresh matrix_refresh_;
+  Refresh covariance_refresh_;
+  std::optional<Eigen::Matrix3d> pose_covariance_;                     // where it is known
+  std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as it was when last read
+
+  // Of the present frame; reused.
+  seif::Pose2 pose_;
+  std::vector<seif::LandmarkId> in_view_;
+  std::vector<seif::LandmarkEstimate> read_;
+  std::vector<seif::Coupling> couplings_;
+  std::vector<seif::LandmarkId> active_;  // ascending
+  std::vector<DrawnLink> drawn_links_;
+  double weakest_drawn_ = 0.0;  // [-] strength from which on links are drawn; 0: all are
+};
+
+}  // namespace harness

@@ -1,0 +1,43 @@
+// Charts of a quantity over the time of a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/film/series.hpp"
+#include "harness/palette.hpp"
+#include "sim/render/scene.hpp"
+
+namespace harness {
+
+struct Curve {
+  std::string label;
+  Rgb colour = 0;
+  const Series* values = nullptr;
+  const Series* band = nullptr;  // shaded from zero up to it; null: none
+};
+
+enum class Scale { linear, logarithmic };
+
+/// A rectangle of the image. [px]
+struct Frame {
+  float x = 0.0F;  // of its left edge
+  float y = 0.0F;  // of its upper edge
+  float width = 0.0F;
+  float height = 0.0F;
+};
+
+struct Chart {
+  Frame frame;
+  std::string title;
+  std::string unit;
+  int decimals = 0;  // [-] of the latest values
+  Scale scale = Scale::linear;
+  std::vector<Curve> curves;
+};
+
+/// Appends the chart with its axes. The vertical axis grows with the values, by steps that look round;
+/// lengths that are not the frame's are times `scale`.
+void append_chart(const Chart& chart, float scale, std::vector<render::OverlayItem>& overlay);
+
+}  // namespace harness

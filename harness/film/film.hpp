@@ -1,0 +1,109 @@
+// The film of a run: follows it as it goes and draws its frames.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/film/belief_view.hpp"
+#include "harness/film/camera_man.hpp"
+#include "harness/film/film_clock.hpp"
+#include "harness/film/frame_sink.hpp"
+#include "harness/film/layout.hpp"
+#include "harness/film/sight.hpp"
+#include "harness/film/stage.hpp"
+#include "harness/film/trail.hpp"
+#include "harness/live_loop.hpp"
+#include "harness/run_listener.hpp"
+#include "sim/render/renderer.hpp"
+#include "worlds/world.hpp"
+
+namespace harness {
+
+/// What is filmed, and how.
+struct FilmPlan {
+  worlds::World world;      // of the run; `world.film` says how
+  bool knows_world = true;  // false: the log came without a world file, and only `world.film` has a meaning
+  std::string name;         // of the world or log
+  std::uint64_t seed = 0;
+  double start = 0.0;  // [s] of the run: charts are as wide as from here ...
+  double end = 0.0;    // [s] ... to here
+  FilmClock clock;
+};
+
+/// Which estimators of a world a film shows: those that it names; otherwise seif and ekf; otherwise the first
+/// two.
+std::vector<std::string> filmed_estimators(const worlds::World& world);
+
+/// From `from` to `to` [s] of simulated time after the run's start. Throws BadInput if that is no time of the
+/// run.
+FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
+                     std::optional<double> to);
+
+/// Of all of a world that runs live.
+FilmPlan film_plan(const worlds::World& world);
+
+class Film final : public RunListener {
+ public:
+  /// Keeps references to `log` and `believers`. Throws std::runtime_error saying what to install if something
+  /// is missing, and BadInput for an estimator that is not there.
+  Film(FilmPlan plan, const LogDescription& log, const Believers& believers, std::unique_ptr<FrameSink> sink);
+
+  /// What goes wrong with the film does not end the run: finish() tells.
+  void odometry(const OdometryEvent& event) override;
+  void scan(const ScanEvent& event) override;
+  void dead_reckoning(double t, const seif::Pose2& T_world_robot) override;
+  void update(std::size_t estimator, const UpdateRecord& record) override;
+
+  /// Whether no further frame is wanted.
+  bool is_over() const { return next_frame_ >= plan_.clock.frames() || !failure_.empty(); }
+  std::int64_t frames_drawn() const { return next_frame_; }
+
+  /// The run is over: draws the frames that are left where it `has_ended` as planned, and completes the film.
+  /// Throws std::runtime_error if it could not be made.
+  void finish(bool has_ended);
+
+ private:
+  struct Filmed {
+    std::size_t estimator;  // its index in the run
+    std::size_t view;       // its index in views_
+  };
+
+  void note_past(double t);
+  void advance_to(double t, const std::optional<TruePose>& truth, const seif::Pose2& increment);
+  void draw_frame(double t, const seif::Pose2& T_since);
+  void compose(double t, const seif::Pose2& T_since);
+  Gaze gaze_of(const render::Camera& camera) const;
+  void compose_things(const Gaze& gaze, const seif::Pose2& T_since);
+  void compose_overlay(double t);
+  std::string facts_at(double t) const;
+  seif::Pose2 best_pose(const seif::Pose2& T_since) const;
+
+  FilmPlan plan_;
+  const LogDescription& log_;
+  const Believers& believers_;
+  std::unique_ptr<FrameSink> sink_;
+  render::Renderer renderer_;
+  Layout layout_;
+  Stage stage_;
+  Sight sight_;
+  CameraMan camera_man_;
+  std::vector<Filmed> filmed_;
+  std::vector<BeliefView> views_;
+  Trail true_trail_;
+  Trail odometry_trail_;
+  double t_;                       // [s] of the last event
+  std::optional<TruePose> truth_;  // at the last event
+  std::optional<TruePose> now_;    // the truth at the present frame
+  FilmClock past_;                 // before the first frame
+  std::int64_t next_note_ = 0;     // of the past
+  std::int64_t next_frame_ = 0;
+  std::string failure_;
+  render::Scene scene_;  // reused
+  render::Image image_;  // reused
+};
+
+}  // namespace harness

@@ -1,0 +1,140 @@
+#include "harness/film/film_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "harness/csv_reader.hpp"
+#include "harness/estimator_schemas.hpp"
+#include "harness/interrupt.hpp"
+#include "harness/progress.hpp"
+#include "harness/replay_settings.hpp"
+#include "harness/version.hpp"
+
+namespace harness {
+
+namespace {
+
+/// The times of one estimator's updates, as they were recorded.
+class RecordedTimes {
+ public:
+  explicit RecordedTimes(const std::filesystem::path& file) {
+    const Columns columns{{"t", "update", "motion", "measurement", "sparsification", "mean_recovery"}, {}};
+    if (std::filesystem::exists(file)) rows_.emplace(file, columns);
+  }
+
+  /// That of the update at `t` [s], for times that come in order; NaN if there is none. [us]
+  double at(double t) {
+    while (rows_ && row_t_ < t) {
+      if (!rows_->next()) {
+        rows_.reset();
+        break;
+      }
+      row_t_ = rows_->number(0);
+    }
+    return rows_ && row_t_ == t ? rows_->number(1) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  std::optional<CsvReader> rows_;
+  double row_t_ = -std::numeric_limits<double>::infinity();  // [s]
+};
+
+/// Hands on to the film what a replay tells, with the times of the run itself: a replay's own are of a
+/// machine that draws in between, and differ from one to the next.
+class WithRecordedTimes final : public RunListener {
+ public:
+  WithRecordedTimes(Film& film, const std::filesystem::path& log, const Believers& believers) : film_(film) {
+    for (const LiveEstimator& estimator : believers.estimators)
+      times_.emplace_back(log / (estimator.name + "_times.csv"));
+  }
+
+  void odometry(const OdometryEvent& event) override { film_.odometry(event); }
+  void scan(const ScanEvent& event) override { film_.scan(event); }
+  void dead_reckoning(double t, const seif::Pose2& pose) override { film_.dead_reckoning(t, pose); }
+  void update(std::size_t estimator, const UpdateRecord& record) override {
+    UpdateRecord recorded = record;
+    recorded.times.update = times_[estimator].at(record.t);
+    film_.update(estimator, recorded);
+  }
+
+ private:
+  Film& film_;
+  std::vector<RecordedTimes> times_;
+};
+
+/// When the last odometry came. [s]
+double end_of(const std::filesystem::path& log, double start) {
+  CsvReader rows(
+      log / "odometry.csv",
+      {{"t", "dx", "dy", "dtheta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt"}, {}});
+  double end = start;
+  while (rows.next()) end = rows.number(0);
+  return end;
+}
+
+/// A run has its world; of a log that came from elsewhere only settings are known.
+worlds::LoadResult load_settings(const std::filesystem::path& folder,
+                                 const std::vector<std::string>& overrides, const seif::Registry& registry) {
+  if (std::filesystem::exists(folder / "world.yaml"))
+    return worlds::load_world((folder / "world.yaml").string(), overrides, estimator_schemas(registry),
+                              program_version());
+  return load_replay_settings(folder, {{}, overrides, ""}, registry);
+}
+
+void check_override(const std::string& assignment) {
+  if (!assignment.starts_with("film."))
+    throw BadInput(fmt::format(
+        "--set {}: a film can set its own section, film.key=value; the rest is recorded", assignment));
+}
+
+}  // namespace
+
+std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,
+                                           const std::vector<std::string>& overrides,
+                                           const seif::Registry& registry,
+                                           std::vector<worlds::Problem>& problems) {
+  for (const std::string& assignment : overrides) check_override(assignment);
+  const worlds::LoadResult settings = load_settings(folder, overrides, registry);
+  problems.insert(problems.end(), settings.problems.begin(), settings.problems.end());
+  if (!settings.world) return std::nullopt;
+  FilmableFolder result;
+  result.plan.world = *settings.world;
+  const std::vector<std::string> names = filmed_estimators(result.plan.world);
+  worlds::World replayed = result.plan.world;
+  std::erase_if(replayed.estimators, [&](const worlds::EstimatorChoice& choice) {
+    return std::ranges::find(names, choice.name) == names.end();
+  });
+  replayed.scoring.interval = std::numeric_limits<double>::infinity();  // scored already
+  result.replay = prepare_replay(folder, replayed, registry);
+  result.plan.knows_world = std::filesystem::exists(folder / "world.yaml");
+  result.plan.name = result.replay.plan.name;
+  result.plan.seed = result.plan.world.seed;
+  result.plan.start = result.replay.log->start_t;
+  result.plan.end = end_of(folder, result.plan.start);
+  return result;
+}
+
+FilmResult film_folder(FilmableFolder& folder, const std::filesystem::path& log,
+                       std::unique_ptr<FrameSink> sink, bool quiet) {
+  PreparedRun& replay = folder.replay;
+  const InterruptGuard guard;
+  CountProgress progress(quiet, static_cast<std::size_t>(folder.plan.clock.frames()), "frames");
+  replay.believers->dead_reckoning = replay.log->start.mean;
+  Film film(folder.plan, *replay.log, *replay.believers, std::move(sink));
+  WithRecordedTimes listener(film, log, *replay.believers);
+  LiveLoop loop(*replay.stream, *replay.believers, {&listener}, *replay.log, replay.plan.scoring);
+  std::atomic<bool> stop = false;
+  loop.run(stop, [&](const LoopCounts&) {
+    progress.show(static_cast<std::size_t>(film.frames_drawn()));
+    stop = film.is_over() || InterruptGuard::flag();
+  });
+  const bool interrupted = InterruptGuard::flag();
+  film.finish(!interrupted);
+  return {film.frames_drawn(), interrupted};
+}
+
+}  // namespace harness

@@ -1,0 +1,36 @@
+// What a command line says about films.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace harness {
+
+/// What is empty is not said.
+struct FilmOptions {
+  std::string out;                      // a file
+  std::string camera;                   //
+  std::string size;                     // [px] as in 1920x1080
+  std::optional<int> fps;               // [1/s]
+  std::optional<double> speed;          // [-] simulated over film time
+  std::optional<double> from;           // [s] of simulated time
+  std::optional<double> to;             // [s] of simulated time
+  std::optional<double> at;             // [s] of simulated time: a single picture
+  std::vector<std::string> estimators;  // names
+  std::vector<std::string> show;        // layers, or "all"
+  std::vector<std::string> hide;        // the same, but show counts
+};
+
+/// `options` must outlive the parsing.
+void add_film_options(CLI::App& command, FilmOptions& options);
+
+/// The part of them that stands in world files, as overrides `film.key=value`: whoever reads the world finds
+/// what is wrong with it. Throws BadInput for a size that is none.
+std::vector<std::string> film_overrides(const FilmOptions& options);
+
+}  // namespace harness

@@ -1,0 +1,56 @@
+#include "harness/film/matrix_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace harness {
+
+namespace {
+
+constexpr std::size_t most_cells = 128;  // [-] along an edge: about as many as there are pixels
+
+}  // namespace
+
+void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
+  matrix_ = filter.belief_matrix();
+  cells_.clear();
+  if (matrix_ == seif::BeliefMatrix::none) return;
+  for (std::size_t i = numbers_.size(); i < map.size(); ++i) numbers_.emplace(map.id(i), i + 1);
+  const std::size_t rows = map.size() + 1;
+  const std::size_t size = std::min(rows, most_cells);
+  size_ = static_cast<int>(size);
+  cells_.assign(size * size, 0.0F);
+  const auto cell = [&](std::size_t row) { return row * size / rows; };
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    float* const line = &cells_[cell(i) * size];
+    line[cell(i)] = 1.0F;
+    filter.couplings(i == 0 ? seif::no_landmark : map.id(i - 1), couplings_);
+    blocks += couplings_.size() + 1;
+    for (const seif::Coupling& coupling : couplings_) {
+      const std::size_t j = coupling.other == seif::no_landmark ? 0 : numbers_.at(coupling.other);
+      line[cell(j)] = std::max(line[cell(j)], static_cast<float>(coupling.strength));
+    }
+  }
+  fill_ = static_cast<double>(blocks) / (static_cast<double>(rows) * static_cast<double>(rows));
+}
+
+/// Strengths differ by orders of magnitude, and it matters which are zero: a block that is not is never
+/// white.
+render::Raster MatrixPicture::raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const {
+  render::Raster raster;
+  raster.min = min;
+  raster.max = max;
+  raster.columns = size_;
+  raster.rows = size_;
+  raster.rgba.reserve(4 * cells_.size());
+  for (const float strength : cells_) {
+    const float dark = strength > 0.0F ? 0.12F + 0.88F * std::sqrt(std::sqrt(strength)) : 0.0F;
+    for (const float full : {0.06F, 0.10F, 0.16F})
+      raster.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0F * (1.0F - dark * (1.0F - full)))));
+    raster.rgba.push_back(255);
+  }
+  return raster;
+}
+
+}  // namespace harness

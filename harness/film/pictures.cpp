@@ -1,0 +1,63 @@
+#include "harness/film/pictures.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "sim/render/png.hpp"
+
+namespace harness {
+
+namespace {
+
+/// What stands under the name is a whole picture at any time: the former one, or this.
+void write_whole(const std::filesystem::path& file, const render::Image& image) {
+  std::filesystem::path unfinished = file;
+  unfinished += fmt::format(".{}.part", getpid());
+  try {
+    render::write_png(unfinished, image);
+    std::filesystem::rename(unfinished, file);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw;
+  }
+}
+
+class PictureSequence : public FrameSink {
+ public:
+  explicit PictureSequence(std::filesystem::path file) : file_(std::move(file)) {}
+
+  void write(const render::Image& frame) override {
+    const std::string name =
+        fmt::format("{}_{:05}{}", file_.stem().string(), next_++, file_.extension().string());
+    write_whole(file_.parent_path() / name, frame);
+  }
+
+  void finish() override {}
+
+ private:
+  std::filesystem::path file_;
+  int next_ = 0;
+};
+
+class Still : public FrameSink {
+ public:
+  explicit Still(std::filesystem::path file) : file_(std::move(file)) {}
+  void write(const render::Image& frame) override { write_whole(file_, frame); }
+  void finish() override {}
+
+ private:
+  std::filesystem::path file_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> make_picture_sequence(const std::filesystem::path& file) {
+  return std::make_unique<PictureSequence>(file);
+}
+
+std::unique_ptr<FrameSink> make_still(const std::filesystem::path& file) {
+  return std::make_unique<Still>(file);
+}
+
+}  // namespace harness

@@ -1,0 +1,17 @@
+// Films as PNG files.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "harness/film/frame_sink.hpp"
+
+namespace harness {
+
+/// Each frame in a file of its own: for a.png a_00000.png, a_00001.png, ...
+std::unique_ptr<FrameSink> make_picture_sequence(const std::filesystem::path& file);
+
+/// One frame in this very file.
+std::unique_ptr<FrameSink> make_still(const std::filesystem::path& file);
+
+}  // namespace harness

@@ -1,0 +1,180 @@
+#include "harness/film/titles.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "harness/film/fitted_text.hpp"
+#include "harness/film/paint.hpp"
+#include "sim/render/renderer.hpp"
+
+namespace harness {
+
+namespace {
+
+using Overlay = std::vector<render::OverlayItem>;
+using Eigen::Vector2f;
+
+void append_text(Overlay& overlay, const Vector2f& position, float size, render::Align align,
+                 render::Weight weight, Rgb colour, std::string words) {
+  overlay.push_back(render::Text{position, size, align, weight, paint(colour), std::move(words)});
+}
+
+void append_box(Overlay& overlay, const Frame& frame, const render::Colour& colour) {
+  overlay.push_back(
+      render::Rectangle{{frame.x, frame.y}, {frame.x + frame.width, frame.y + frame.height}, colour});
+}
+
+std::string figures_of(const BeliefView& belief) {
+  if (!belief.failure().empty()) return "failed " + belief.failure();
+  std::string text = fmt::format("{} landmarks", belief.landmarks());
+  if (belief.links() > 0) text += fmt::format(" · {} links", belief.links());
+  return text;
+}
+
+/// The entries of a legend, in two columns.
+class Legend {
+ public:
+  Legend(const Frame& frame, float scale, Overlay& overlay)
+      : frame_(frame), scale_(scale), overlay_(overlay) {}
+
+  void line(Rgb colour, float width, const std::string& words) {
+    const Vector2f p = next(words);
+    overlay_.push_back(
+        render::Polyline{{p, p + Vector2f(22.0F * scale_, 0.0F)}, width * scale_, paint(colour)});
+  }
+
+  void disk(Rgb colour, float radius, const std::string& words) {
+    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
+    overlay_.push_back(render::Polyline{{p, p}, 2.0F * radius * scale_, paint(colour)});
+  }
+
+  void ring(Rgb colour, const std::string& words) {
+    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
+    render::Polyline ellipse{{}, 1.4F * scale_, paint(colour)};
+    constexpr int corners = 32;
+    for (int i = 0; i <= corners; ++i) {
+      const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / corners;
+      ellipse.points.push_back(p + scale_ * Vector2f(9.0F * std::cos(angle), 5.0F * std::sin(angle)));
+    }
+    overlay_.push_back(std::move(ellipse));
+  }
+
+ private:
+  static constexpr int rows = 6;
+
+  /// Writes the words of the next entry; the middle of the left edge of its mark.
+  Vector2f next(const std::string& words) {
+    const int column = count_ / rows;
+    const int row = count_ % rows;
+    ++count_;
+    const float pitch = (frame_.height - 20.0F * scale_) / rows;
+    const Vector2f p(frame_.x + 14.0F * scale_ + static_cast<float>(column) * 0.5F * frame_.width,
+                     frame_.y + 10.0F * scale_ + (static_cast<float>(row) + 0.5F) * pitch);
+    append_text(overlay_, p + Vector2f(30.0F * scale_, 4.5F * scale_), 12.5F * scale_, render::Align::left,
+                render::Weight::regular, paints::ink,
+                fitted(words, 12.5F * scale_, render::Weight::regular, 0.5F * frame_.width - 48.0F * scale_));
+    return p;
+  }
+
+  Frame frame_;
+  float scale_;
+  Overlay& overlay_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+void append_caption(const Frame& frame, float scale, const Caption& caption, Overlay& overlay) {
+  append_box(overlay, frame, paint(paints::paper));
+  const float baseline = frame.y + 0.5F * frame.height + 6.0F * scale;
+  const float gap = 16.0F * scale;
+  const float left = frame.x + gap;
+  const float facts_size = 15.0F * scale;
+  const float name_size = 18.0F * scale;
+  const float right = frame.x + frame.width - gap;
+  append_text(overlay, {right, baseline}, facts_size, render::Align::right, render::Weight::regular,
+              paints::ink, caption.facts);
+  const float room =
+      right - render::text_width(caption.facts, facts_size, render::Weight::regular) - gap - left;
+  const std::string name = fitted(caption.name, name_size, render::Weight::bold, room);
+  append_text(overlay, {left, baseline}, name_size, render::Align::left, render::Weight::bold, paints::ink,
+              name);
+  const float name_width = render::text_width(name, name_size, render::Weight::bold) + gap;
+  const float size = 14.0F * scale;
+  append_text(overlay, {left + name_width, baseline}, size, render::Align::left, render::Weight::regular,
+              paints::faint_ink,
+              fitted(caption.description, size, render::Weight::regular, room - name_width));
+}
+
+void append_view_title(const Frame& frame, float scale, const BeliefView& belief, Overlay& overlay) {
+  const float name_size = 17.0F * scale;
+  const float figures_size = 13.0F * scale;
+  const float room = frame.width - 72.0F * scale;
+  const std::string name = fitted(belief.name(), name_size, render::Weight::bold, room);
+  const float name_width = render::text_width(name, name_size, render::Weight::bold);
+  const std::string figures =
+      fitted(figures_of(belief), figures_size, render::Weight::regular, room - name_width);
+  const float width =
+      name_width + render::text_width(figures, figures_size, render::Weight::regular) + 48.0F * scale;
+  const Frame box{frame.x + 12.0F * scale, frame.y + 12.0F * scale, width, 30.0F * scale};
+  append_box(overlay, box, paint(paints::paper, 0.92F));
+  append_box(overlay, {box.x, box.y, 6.0F * scale, box.height}, paint(belief.colour()));
+  const float baseline = box.y + 20.5F * scale;
+  append_text(overlay, {box.x + 16.0F * scale, baseline}, name_size, render::Align::left,
+              render::Weight::bold, belief.colour(), name);
+  append_text(overlay, {box.x + 30.0F * scale + name_width, baseline}, figures_size, render::Align::left,
+              render::Weight::regular, paints::ink, figures);
+}
+
+void append_matrix(const Frame& frame, float scale, const BeliefView& belief, Overlay& overlay) {
+  if (belief.matrix().empty()) return;
+  const bool is_information = belief.matrix().matrix() == seif::BeliefMatrix::information;
+  const float left = frame.x + 12.0F * scale;
+  append_text(overlay, {left, frame.y + 17.0F * scale}, 11.5F * scale, render::Align::left,
+              render::Weight::bold, belief.colour(),
+              fmt::format("{}, {:.0f} % filled", is_information ? "information" : "covariance",
+                          100.0 * belief.matrix().fill()));
+  const float edge = std::floor(frame.height - 32.0F * scale);
+  const Vector2f min(std::round(left), std::round(frame.y + 24.0F * scale));
+  const float hair = std::max(1.0F, std::round(scale));
+  append_box(overlay, {min.x() - hair, min.y() - hair, edge + 2.0F * hair, edge + 2.0F * hair},
+             paint(paints::hairline));
+  overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
+}
+
+void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
+                   const std::vector<BeliefView>& beliefs, bool has_truth, Overlay& overlay) {
+  Legend legend(frame, scale, overlay);
+  if (layers.truth && has_truth) legend.line(palette::truth, 2.0F, "true way");
+  if (layers.odometry) legend.line(palette::odometry, 2.0F, "odometry alone");
+  for (const BeliefView& belief : beliefs) {
+    if (layers.estimate) legend.line(belief.colour(), 2.4F, belief.name());
+  }
+  if (layers.ellipses && !beliefs.empty()) legend.ring(beliefs.front().colour(), "2σ: where it may be");
+  if (layers.errors && has_truth) legend.line(palette::purple, 2.0F, "error");
+  if (layers.rays) legend.line(palette::sky_blue, 2.0F, "seen");
+  if (layers.rays && has_truth) legend.line(paints::hidden_ray, 2.0F, "hidden");
+  if (layers.landmarks && !beliefs.empty())
+    legend.disk(beliefs.front().colour(), 2.8F, "landmark, estimated");
+  if (layers.active) legend.disk(palette::orange, 5.0F, "active: tied to robot");
+  if (layers.links) legend.line(paints::faint_ink, 1.2F, "link of information");
+}
+
+void append_panel(const Layout& layout, Overlay& overlay) {
+  if (layout.panel) append_box(overlay, *layout.panel, paint(paints::paper));
+  const float hair = std::max(1.0F, layout.scale);
+  for (std::size_t i = 1; i < layout.views.size(); ++i) {
+    const Frame& view = layout.views[i];
+    append_box(overlay, {view.x - hair, view.y, 2.0F * hair, view.height}, paint(paints::paper));
+  }
+  for (const std::optional<Frame>* part : {&layout.pose_error, &layout.legend}) {
+    if (!*part) continue;
+    const Frame& frame = **part;
+    append_box(overlay, {frame.x, frame.y + 10.0F * layout.scale, hair, frame.height - 20.0F * layout.scale},
+               paint(paints::hairline));
+  }
+}
+
+}  // namespace harness

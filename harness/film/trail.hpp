@@ -1,0 +1,42 @@
+// The way that something has taken, in bounded memory: all of it coarsely, the last part finely.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace harness {
+
+class Trail {
+ public:
+  /// Points nearer to the one before than `spacing` [m] are left out.
+  explicit Trail(double spacing) : spacing_(spacing), coarse_spacing_(spacing) {}
+
+  void add(const Eigen::Vector2d& point);
+
+  /// Calls visit(from, to) for every leg, the oldest first; the last one leads to `head`.
+  template <class Visit>
+  void for_each_leg(const Eigen::Vector2d& head, const Visit& visit) const {
+    const Eigen::Vector2d* last = nullptr;
+    for (const std::vector<Eigen::Vector2d>* part : {&coarse_, &fine_}) {
+      for (const Eigen::Vector2d& point : *part) {
+        if (last != nullptr) visit(*last, point);
+        last = &point;
+      }
+    }
+    if (last != nullptr) visit(*last, head);
+  }
+
+  std::size_t points() const { return coarse_.size() + fine_.size(); }
+
+ private:
+  void retire();
+  void thin_out();
+
+  double spacing_;                       // [m]
+  double coarse_spacing_;                // [m]
+  std::vector<Eigen::Vector2d> coarse_;  // the older part
+  std::vector<Eigen::Vector2d> fine_;
+};
+
+}  // namespace harness

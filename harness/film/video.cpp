@@ -1,0 +1,123 @@
+#include "harness/film/video.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "harness/film/piped_program.hpp"
+
+namespace harness {
+
+namespace {
+
+/// Converts to BT.709 and says so: players take untagged video of small size for BT.601, and show other
+/// colours.
+constexpr std::string_view bt709 =
+    "-vf scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+bitexact,format=yuv420p "
+    "-colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
+
+// The number of threads is fixed, because the bytes depend on it.
+constexpr std::string_view h264 =
+    "-c:v libx264 -preset veryfast -crf 20 -threads 2 -movflags +faststart -f mp4";
+constexpr std::string_view vp9 =
+    "-c:v libvpx-vp9 -deadline realtime -cpu-used 8 -row-mt 1 -crf 30 -b:v 0 -threads 2 -f webm";
+
+/// A palette for each frame, so that nothing of the film is kept. No dithering: a pattern that changes from
+/// frame to frame makes plain areas flicker.
+std::string gif(int fps) {
+  constexpr int highest_rate = 50;  // [1/s] of a clock of 1/100 s; players slow down frames of a single tick
+  return fmt::format(
+      "-filter_complex {}split[frames][same];[same]palettegen=stats_mode=single[palettes];"
+      "[frames][palettes]paletteuse=new=1:dither=none -loop 0 -f gif",
+      fps > highest_rate ? fmt::format("fps={},", highest_rate) : "");
+}
+
+std::string codec(VideoFormat video, int fps) {
+  if (video == VideoFormat::gif) return gif(fps);
+  return fmt::format("{} {}", bt709, video == VideoFormat::mp4 ? h264 : vp9);
+}
+
+/// ffmpeg and its arguments, for frames that come as rows of bytes: red, green, blue. The same frames give
+/// the same bytes.
+std::vector<std::string> command(const std::filesystem::path& file, VideoFormat video,
+                                 const FrameFormat& format) {
+  std::istringstream words(
+      fmt::format("ffmpeg -loglevel level+error -nostdin -y "
+                  "-f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i pipe:0 {} -bitexact "
+                  "-map_metadata -1",
+                  format.width, format.height, format.fps, codec(video, format.fps)));
+  std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+  arguments.push_back("file:" + file.string());  // the prefix lets a name begin with a dash, or hold a colon
+  return arguments;
+}
+
+PipedProgram start(const std::vector<std::string>& arguments) try {
+  return PipedProgram(arguments);
+} catch (const std::system_error& error) {
+  if (error.code() == std::errc::no_such_file_or_directory)
+    throw std::runtime_error("ffmpeg is missing: install ffmpeg (Debian)");
+  throw;
+}
+
+constexpr std::array<std::string_view, 3> levels = {"[error] ", "[fatal] ", "[panic] "};
+
+/// ffmpeg's exit code does not tell that the end of a film could not be written; its words do.
+bool tells_of_an_error(const std::string& complaint) {
+  return std::ranges::any_of(
+      levels, [&](std::string_view level) { return complaint.find(level) != std::string::npos; });
+}
+
+std::string without_levels(std::string complaint) {
+  for (const std::string_view level : levels) {
+    for (std::size_t at = complaint.find(level); at != std::string::npos; at = complaint.find(level, at))
+      complaint.erase(at, level.size());
+  }
+  return complaint;
+}
+
+class VideoSink : public FrameSink {
+ public:
+  VideoSink(const std::filesystem::path& file, VideoFormat video, const FrameFormat& format)
+      : file_(file), format_(format), encoder_(start(command(file, video, format))) {}
+
+  void write(const render::Image& frame) override {
+    if (frame.width != format_.width || frame.height != format_.height)
+      throw std::invalid_argument("a frame of another size");
+    if (!encoder_.send(frame.rgb)) fail();
+  }
+
+  void finish() override {
+    if (!encoder_.finish() || tells_of_an_error(encoder_.complaint())) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() {
+    static_cast<void>(encoder_.finish());  // so that it has said all
+    std::string reason = without_levels(encoder_.complaint());
+    reason.erase(std::find_if(reason.rbegin(), reason.rend(), [](char c) { return c != '\n'; }).base(),
+                 reason.end());
+    throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(),
+                                         reason.empty() ? "ffmpeg ended before the film did" : reason));
+  }
+
+  std::filesystem::path file_;
+  FrameFormat format_;
+  PipedProgram encoder_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSink> make_video_sink(const std::filesystem::path& file, VideoFormat video,
+                                           const FrameFormat& format) {
+  return std::make_unique<VideoSink>(file, video, format);
+}
+
+}  // namespace harness
