@@ -47,6 +47,11 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
       make_frame_sink(file, {settings.width, settings.height, settings.fps}, is_still), arguments.quiet);
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   const int code = result.interrupted ? 130 : 0;
+  if (result.frames == 0) {
+    std::filesystem::remove(file);
+    fmt::print(stderr, "seifbed: interrupted before the first frame: there is no film\n");
+    return code;
+  }
   if (arguments.quiet) return code;
   const auto frames = static_cast<double>(result.frames);
   const std::string length = is_still ? std::string()

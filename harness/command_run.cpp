@@ -5,6 +5,7 @@
 #include "harness/commands.hpp"
 #include "harness/estimator_schemas.hpp"
 #include "harness/film/film.hpp"
+#include "harness/interrupt.hpp"
 #include "harness/prepared_run.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/version.hpp"
@@ -40,6 +41,7 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   Film film(film_plan(world), *run.log, *run.believers,
             make_frame_sink(run.plan.folder / "film.mp4",
                             {world.film.width, world.film.height, world.film.fps}, false));
+  film.after_each_frame([] { return !InterruptGuard::flag(); });
   const RunResult result = execute(run, &film);
   const int code = print_result(result, run.plan.folder, arguments.output);
   film.finish(result.error.empty() && !result.summary.interrupted);

@@ -188,6 +188,7 @@ void Film::draw_frame(double t, const seif::Pose2& T_since) {
     renderer_.draw(scene_, image_);
     sink_->write(image_);
     ++next_frame_;
+    is_cut_ = goes_on_ && !goes_on_();
   } catch (const std::exception& error) {
     failure_ = error.what();
   }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/film/belief_view.hpp"
@@ -52,6 +53,9 @@ class Film final : public RunListener {
   /// is missing, and BadInput for an estimator that is not there.
   Film(FilmPlan plan, const LogDescription& log, const Believers& believers, std::unique_ptr<FrameSink> sink);
 
+  /// `goes_on` is called after each frame; once it returns false there are no more.
+  void after_each_frame(std::function<bool()> goes_on) { goes_on_ = std::move(goes_on); }
+
   /// What goes wrong with the film does not end the run: finish() tells.
   void odometry(const OdometryEvent& event) override;
   void scan(const ScanEvent& event) override;
@@ -59,7 +63,7 @@ class Film final : public RunListener {
   void update(std::size_t estimator, const UpdateRecord& record) override;
 
   /// Whether no further frame is wanted.
-  bool is_over() const { return next_frame_ >= plan_.clock.frames() || !failure_.empty(); }
+  bool is_over() const { return next_frame_ >= plan_.clock.frames() || !failure_.empty() || is_cut_; }
   std::int64_t frames_drawn() const { return next_frame_; }
 
   /// The run is over: draws the frames that are left where it `has_ended` as planned, and completes the film.
@@ -101,6 +105,8 @@ class Film final : public RunListener {
   FilmClock past_;                 // before the first frame
   std::int64_t next_note_ = 0;     // of the past
   std::int64_t next_frame_ = 0;
+  std::function<bool()> goes_on_;
+  bool is_cut_ = false;
   std::string failure_;
   render::Scene scene_;  // reused
   render::Image image_;  // reused

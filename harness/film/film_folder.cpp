@@ -128,10 +128,11 @@ FilmResult film_folder(FilmableFolder& folder, const std::filesystem::path& log,
   WithRecordedTimes listener(film, log, *replay.believers);
   LiveLoop loop(*replay.stream, *replay.believers, {&listener}, *replay.log, replay.plan.scoring);
   std::atomic<bool> stop = false;
-  loop.run(stop, [&](const LoopCounts&) {
+  film.after_each_frame([&] {
     progress.show(static_cast<std::size_t>(film.frames_drawn()));
-    stop = film.is_over() || InterruptGuard::flag();
+    return !InterruptGuard::flag();
   });
+  loop.run(stop, [&](const LoopCounts&) { stop = film.is_over() || InterruptGuard::flag(); });
   const bool interrupted = InterruptGuard::flag();
   film.finish(!interrupted);
   return {film.frames_drawn(), interrupted};
