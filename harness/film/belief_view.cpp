@@ -16,9 +16,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double trail_spacing = 0.05;  // [m]
-constexpr std::size_t others_read =
-    256;  // [-] landmarks out of view whose means are read at each frame, in turn
+constexpr double trail_spacing = 0.05;    // [m]
+constexpr std::size_t others_read = 256;  // [-] landmarks out of view whose means a frame reads, in turn
 // How many scans lie between two refreshes of what costs more than a constant: a share of that cost.
 constexpr std::size_t landmarks_for_each_scan = 50;  // [-] the matrix is read in a pass over the map
 constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly the square of it
@@ -134,7 +133,7 @@ void BeliefView::read_couplings(const worlds::FilmLayers& layers) {
     estimator_.filter->couplings(id, couplings_);
     for (const seif::Coupling& coupling : couplings_) {
       // Once for both ends where both are read; the other end of a link out of view is not.
-      if (coupling.other != seif::no_landmark && coupling.other > id)
+      if (coupling.other != seif::no_landmark && coupling.other > id && means_.position(coupling.other))
         drawn_links_.push_back({id, coupling.other, coupling.strength});
     }
   }

@@ -28,7 +28,9 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
     filter.couplings(i == 0 ? seif::no_landmark : map.id(i - 1), couplings_);
     blocks += couplings_.size() + 1;
     for (const seif::Coupling& coupling : couplings_) {
-      const std::size_t j = coupling.other == seif::no_landmark ? 0 : numbers_.at(coupling.other);
+      const auto other = numbers_.find(coupling.other);
+      if (other == numbers_.end() && coupling.other != seif::no_landmark) continue;  // nothing has seen it
+      const std::size_t j = other == numbers_.end() ? 0 : other->second;
       line[cell(j)] = std::max(line[cell(j)], static_cast<float>(coupling.strength));
     }
   }
