@@ -59,7 +59,6 @@ class BeliefView {
   const Series& position_errors() const { return position_errors_; }  // [m]
   const Series& three_sigma() const { return three_sigma_; }          // [m]
   const MatrixPicture& matrix() const { return matrix_; }
-  const seif::Pose2& pose() const { return pose_; }
 
  private:
   void read_means(const Gaze& gaze);

@@ -112,7 +112,6 @@ FilmPlan film_plan(const worlds::World& world) {
 Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
            std::unique_ptr<FrameSink> sink)
     : plan_(std::move(plan)),
-      log_(log),
       believers_(believers),
       sink_(std::move(sink)),
       renderer_(plan_.world.film.width, plan_.world.film.height),
@@ -130,7 +129,7 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
     const auto it = std::ranges::find(believers.estimators, name, &LiveEstimator::name);
     if (it == believers.estimators.end())
       throw BadInput(fmt::format("there is no estimator '{}' to film", name));
-    filmed_.push_back({static_cast<std::size_t>(it - believers.estimators.begin()), views_.size()});
+    filmed_.push_back(static_cast<std::size_t>(it - believers.estimators.begin()));
     const int bins = std::max(2, static_cast<int>(layout_.times.value_or(Frame{0, 0, 400, 0}).width / 2.0F));
     views_.emplace_back(*it, colour_of(plan_.world, name), plan_.start, plan_.end, bins);
   }
@@ -154,8 +153,8 @@ void Film::dead_reckoning(double /*t*/, const seif::Pose2& T_world_robot) {
 }
 
 void Film::update(std::size_t estimator, const UpdateRecord& record) {
-  for (const Filmed& filmed : filmed_) {
-    if (filmed.estimator == estimator) views_[filmed.view].update(record);
+  for (std::size_t i = 0; i < filmed_.size(); ++i) {
+    if (filmed_[i] == estimator) views_[i].update(record);
   }
 }
 
@@ -205,7 +204,7 @@ void Film::finish(bool has_ended) {
 seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
   if (now_) return now_->T_world_robot;
   if (!filmed_.empty() && views_.front().failure().empty())
-    return believers_.estimators[filmed_.front().estimator].filter->pose() * T_since;
+    return believers_.estimators[filmed_.front()].filter->pose() * T_since;
   return believers_.dead_reckoning * T_since;
 }
 

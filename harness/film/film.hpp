@@ -49,8 +49,8 @@ FilmPlan film_plan(const worlds::World& world);
 
 class Film final : public RunListener {
  public:
-  /// Keeps references to `log` and `believers`. Throws std::runtime_error saying what to install if something
-  /// is missing, and BadInput for an estimator that is not there.
+  /// Keeps a reference to `believers`, and to the landmarks of `log`. Throws std::runtime_error saying what
+  /// to install if something is missing, and BadInput for an estimator that is not there.
   Film(FilmPlan plan, const LogDescription& log, const Believers& believers, std::unique_ptr<FrameSink> sink);
 
   /// `goes_on` is called after each frame; once it returns false there are no more.
@@ -71,11 +71,6 @@ class Film final : public RunListener {
   void finish(bool has_ended);
 
  private:
-  struct Filmed {
-    std::size_t estimator;  // its index in the run
-    std::size_t view;       // its index in views_
-  };
-
   void note_past(double t);
   void advance_to(double t, const std::optional<TruePose>& truth, const seif::Pose2& increment);
   void draw_frame(double t, const seif::Pose2& T_since);
@@ -87,7 +82,6 @@ class Film final : public RunListener {
   seif::Pose2 best_pose(const seif::Pose2& T_since) const;
 
   FilmPlan plan_;
-  const LogDescription& log_;
   const Believers& believers_;
   std::unique_ptr<FrameSink> sink_;
   render::Renderer renderer_;
@@ -95,7 +89,7 @@ class Film final : public RunListener {
   Stage stage_;
   Sight sight_;
   CameraMan camera_man_;
-  std::vector<Filmed> filmed_;
+  std::vector<std::size_t> filmed_;  // the estimator of each view: its index in the run
   std::vector<BeliefView> views_;
   Trail true_trail_;
   Trail odometry_trail_;
