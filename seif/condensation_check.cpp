@@ -24,27 +24,38 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
       return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
     if (is_hot) continue;
     if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
-    const std::vector<int>& eliminated = node(p.eliminated_at).message.eliminated;
-    if (std::ranges::count(eliminated, slot) != 1)
-      return broken("landmark ", slot, " was not eliminated once");
+    const Condensed& message = node(p.settled_at).message;
+    const auto is_it = [&](const Condensed::Tie& tie) { return tie.variable == slot; };
+    if (std::ranges::count(message.eliminated, slot) + std::ranges::count_if(message.tied, is_it) != 1)
+      return broken("landmark ", slot, " is not settled at node ", p.settled_at);
   }
-  std::size_t eliminated = 0;
-  std::size_t cold = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i) cold += places_[i].hot == none ? 1U : 0U;
   for (int i = 0; i < tree_.size(); ++i) {
     const Condensed& message = node(i).message;
-    eliminated += message.eliminated.size();
     if (node(i).hot && i != tree_.hub() && message.blocks() > 0)
       return broken("hot leaf ", i, " has a message");
-    for (const Condensed::Mention& m : message.boundary) {
-      int next = tree_.towards(i);
-      while (next != none && next != place(m.slot).eliminated_at) next = tree_.towards(next);
-      if (place(m.slot).hot == none && next == none) {
-        return broken("landmark ", m.slot, " is not eliminated between node ", i, " and the hub");
+    const int next = tree_.towards(i);
+    for (const Condensed::Member& m : message.boundary) {
+      if (next == none || node(next).is_new) continue;
+      const Condensed& later = node(next).message;
+      const auto is_it = [&](const auto& other) { return other.variable == m.variable; };
+      if (!std::ranges::count(later.eliminated, m.variable) && std::ranges::none_of(later.boundary, is_it) &&
+          std::ranges::none_of(later.tied, is_it)) {
+        return broken("node ", next, " does not take in ", m.variable, " of node ", i);
       }
     }
+    for (const FrontVariable v : message.eliminated) {
+      if (settled_at(v) != i)
+        return broken("variable ", v, " is eliminated at node ", i, ", and settled elsewhere");
+    }
+    for (const int g : node(i).groups) {
+      const auto inside = [&](int leaf) { return tree_.is_within(leaf, g); };
+      const auto used_in = [&](int leaf) {
+        return inside(leaf) && std::ranges::find(changed_, leaf) == changed_.end();
+      };
+      if (std::ranges::any_of(hot_leaves_, used_in)) return broken("group ", g, " in node ", i, " is hot");
+      if (node(g).group.fronts <= 0) return broken("group ", g, " is counted wrong");
+    }
   }
-  if (eliminated != cold) return broken(eliminated, " landmarks are eliminated, ", cold, " are cold");
   return std::nullopt;
 }
 

@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "seif/front.hpp"
+#include "seif/leaf_tree.hpp"
 
 namespace seif {
 
@@ -14,13 +16,30 @@ struct CondensedLandmark {
   static constexpr int none = -1;
 
   int leaf = none;
-  int next = none;           // slot of the next landmark of the leaf
-  int leaves = 0;            // [-] that mention it, if it is cold
-  int hot = none;            // its place in the zone
-  int eliminated_at = none;  // node, if it is cold
+  int next = none;        // slot of the next landmark of the leaf
+  int leaves = 0;         // [-] that mention it, if it is cold
+  int hot = none;         // its place in the zone
+  int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
   int visit = 0;
-  Point mean = Point::Zero();          // if it is cold: as its elimination last heard of it [m]
+  Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
   mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
+  Point loose = Point::Zero();         // what no message holds of its residual
+};
+
+/// All landmarks below a node, where they move as one rigid body.
+struct LandmarkGroup {
+  using Motion = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
+  static constexpr int none = -1;
+
+  CondensedLandmark::Point centre = CondensedLandmark::Point::Zero();  // p_world [m]
+  int settled_at = none;
+  Motion mean = Motion::Zero();          // all its motion so far [m, m, rad], as above
+  mutable Motion read = Motion::Zero();  // as above
+  int fronts = 0;                        // [-] that it is in
+  std::int64_t known = 0;                // epoch in which `read` was last looked up, or begun
+  int present_in = 0;                    // number of the front that it was last found in
+  int wanted_by = 0;                     // number of the count of variables that would be tied to it
+  int members = 0;                       // [-] these
 };
 
 /// A node of the tree; an epoch ends with whatever changes a mean, or how it is held.
@@ -29,8 +48,14 @@ struct CondensationNode {
 
   Condensed message;             // towards the hub; the hub's: to the zone
   bool is_stale = true;          // the message
-  std::int64_t followed_at = 0;  // epoch in which those eliminated here were last written down
+  bool is_new = true;            // has never sent one
+  std::int64_t stale_since = 0;  // epoch
   mutable std::int64_t read_at = 0;
+  std::vector<int> groups;  // nodes whose groups are in its front
+  LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
+  LandmarkGroup group;
+  double distance_ratio = 0.0;      // [-] its distance from the next hot leaves over its size
+  std::int64_t distance_known = 0;  // epoch of this
 
   // Of leaves.
   int first_landmark = none;  // slot

@@ -35,8 +35,38 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
 }
 
 /// To next_hot_. Only messages that now say something else, or go elsewhere, are sent anew: those on the way
-/// from a leaf that has become hot or cold to the hub, and from the old hub to the new one.
-bool CondensationTree::move_zone(const InformationState& state) {
+/// from a leaf that has become hot or cold to the hub, from the old hub to the new one, and with groups that
+/// are now too near.
+bool CondensationTree::move_zone(InformationState& state) {
+  mark_changed_leaves();
+  const int hub = tree_.common_ancestor(next_hot_);
+  stale_.clear();
+  for (const int leaf : changed_) mark_stale(state, leaf);
+  mark_stale(state, hub);
+  mark_expired(state, tree_.hub());
+  return send_stale(state, hub);
+}
+
+bool CondensationTree::solve_all(InformationState& state) {
+  next_hot_ = hot_leaves_;
+  stale_.clear();
+  for (int at = 0; at < tree_.size(); ++at) mark_stale(state, at);
+  groups_allowed_ = false;
+  const bool done = send_stale(state, tree_.common_ancestor(next_hot_)) && solve_window(state);
+  groups_allowed_ = true;
+  return done;
+}
+
+bool CondensationTree::send_stale(InformationState& state, int hub) {
+  for (const int at : stale_) {
+    tree_.for_each_neighbour(at, [&](int other) { note_groups(node(other).message); });
+  }
+  note_zone_residual(state);
+  switch_leaves(state, hub);
+  return fill_zone(state);
+}
+
+void CondensationTree::mark_changed_leaves() {
   for (const int leaf : next_hot_) node(leaf).wanted = true;
   for (const int leaf : hot_leaves_) {
     if (!node(leaf).wanted) changed_.push_back(leaf);
@@ -45,27 +75,126 @@ bool CondensationTree::move_zone(const InformationState& state) {
     if (!node(leaf).hot) changed_.push_back(leaf);
     node(leaf).wanted = false;
   }
-  const int hub = tree_.common_ancestor(next_hot_);
-  for (const int leaf : changed_) follow(state, leaf);
-  follow(state, hub);
+}
+
+/// From a node to the hub as it still is; what is settled there is read.
+void CondensationTree::mark_stale(const InformationState& state, int at) {
+  for (int i = at; i != none; i = tree_.towards(i)) {
+    if (node(i).stale_since == epoch_) break;
+    node(i).stale_since = epoch_;
+    node(i).is_stale = true;
+    stale_.push_back(i);
+  }
+  read(state, at);
+}
+
+/// Nodes with a group in their fronts that the next zone is too near to, and what depends on them.
+bool CondensationTree::mark_expired(const InformationState& state, int at) {
+  const Node& n = node(at);
+  const bool changes = n.stale_since == epoch_;
+  const auto enters = [&](int leaf) { return n.reach.intersects(tree_.box(leaf)); };
+  if (!changes && std::ranges::none_of(next_hot_, enters)) return false;
+  if (!changes &&
+      std::ranges::any_of(n.groups, [&](int g) { return distance_ratio(g) < 0.5 * options_.grain; })) {
+    mark_stale(state, at);
+  }
+  tree_.for_each_source(at, [&](int source) { mark_expired(state, source); });
+  return true;
+}
+
+/// The groups of a boundary that has been read.
+void CondensationTree::note_groups(const Condensed& message) {
+  for (const Condensed::Member& m : message.boundary) {
+    if (is_group(m.variable)) node(~m.variable).group.known = epoch_;
+  }
+}
+
+void CondensationTree::reserve_boundary(Eigen::Index rows) {
+  if (rows <= part_step_.size()) return;
+  part_step_.resize(2 * rows);
+  gradient_.resize(2 * rows);
+}
+
+/// What a message holds of the residual of its boundary, as that is now.
+Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const Condensed& message) {
+  reserve_boundary(message.b);
+  auto d = part_step_.head(message.b);
+  auto r = gradient_.head(message.b);
+  step_of(message, d);
+  message.residual(d, r);
+  blocks_touched_ += message.blocks();
+  return r;
+}
+
+/// What the messages to a node hold of the residual of hot landmarks. A node that has come in between since
+/// has none of its own yet.
+void CondensationTree::take_from_loose(int at) {
+  tree_.for_each_source(at, [&](int source) {
+    if (node(source).is_new) return take_from_loose(source);
+    const Condensed& m = node(source).message;
+    const auto r = residual_of(m);
+    Eigen::Index row = 0;
+    for (const Condensed::Member& member : m.boundary) {
+      const FrontVariable v = member.variable;
+      if (!is_group(v) && place(v).hot != none) place(v).loose -= r.segment<2>(row);
+      row += freedom(v);
+    }
+  });
+}
+
+/// What no message holds of the residual: of hot landmarks, and where hot leaves have blocks with cold ones.
+void CondensationTree::note_zone_residual(const InformationState& state) {
   for (int h = 0; h < zone_.size(); ++h) {
     Place& p = place(zone_.slot(h));
-    p.mean = p.read = zone_.mean(h);
+    const int position = state.position(zone_.slot(h));
+    p.loose.setZero();
+    if (position >= 0) p.loose = state.r().segment<2>(InformationState::row_of(position));
+  }
+  take_from_loose(tree_.hub());
+  const Condensed& to_zone = node(tree_.hub()).message;
+  reserve_boundary(to_zone.b);
+  auto d = part_step_.head(to_zone.b);
+  step_of(to_zone, d);
+  Eigen::Index row = 0;
+  for (const Condensed::Member& member : to_zone.boundary) {
+    const int slot = member.variable;
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      if (place(other).hot != none || place(other).leaf < place(slot).leaf) return;
+      place(other).loose -= Omega_so.transpose() * d.segment<2>(row);
+    });
+    row += 2;
+  }
+}
+
+/// A cold leaf whose message goes: what its message held of the residual.
+void CondensationTree::loosen(int leaf) {
+  const Condensed& m = node(leaf).message;
+  const auto r = residual_of(m);
+  Eigen::Index row = 0;
+  for (const Condensed::Member& member : m.boundary) {
+    place(member.variable).loose += r.segment<2>(row);
+    row += 2;
+  }
+}
+
+void CondensationTree::switch_leaves(const InformationState& state, int hub) {
+  for (const int at : stale_) {
+    if (tree_.is_leaf(at) && !node(at).hot) loosen(at);
+  }
+  for (int h = 0; h < zone_.size(); ++h) {
+    Place& p = place(zone_.slot(h));
+    p.read = zone_read_.segment<2>(2 * h);
     p.hot = none;
   }
   for (const int leaf : hot_leaves_) node(leaf).hot = false;
   for (const int leaf : next_hot_) node(leaf).hot = true;
-  hot_leaves_.swap(next_hot_);
-
+  hot_leaves_ = next_hot_;
   tree_.move_hub(hub, way_);
-  for (const int i : way_) node(i).is_stale = true;
   for (const int leaf : changed_) {
-    for (int i = leaf; i != hub; i = tree_.towards(i)) node(i).is_stale = true;
     if (node(leaf).hot) continue;
     for_each_landmark(leaf, [&](int slot) { place(slot).leaves = count_leaves(state, slot); });
   }
   changed_.clear();
-  return fill_zone(state);
 }
 
 /// How many leaves mention a passive landmark: its own, and those before it that own a block of it.
@@ -77,85 +206,6 @@ int CondensationTree::count_leaves(const InformationState& state, int slot) cons
     if (leaf < owners_.front() && std::ranges::find(owners_, leaf) == owners_.end()) owners_.push_back(leaf);
   });
   return static_cast<int>(owners_.size());
-}
-
-/// The blocks that a leaf owns, but those of the window.
-void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf) {
-  ++visit_;
-  const auto mention = [&](int slot) {
-    if (place(slot).visit == visit_) return;
-    place(slot).visit = visit_;
-    front_.mention(slot);
-  };
-  for_each_landmark(leaf, [&](int slot) {
-    mention(slot);
-    ++blocks_touched_;
-    if (state.position(slot) < 0) front_.add(slot, slot, state.information(slot));
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      ++blocks_touched_;
-      const int leaf_of_other = place(other).leaf;
-      if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
-      mention(other);
-      front_.add(slot, other, Omega_so);
-    });
-  });
-}
-
-/// Sends the message of a node, after those that it depends on.
-bool CondensationTree::send(const InformationState& state, int from) {
-  bool done = true;
-  tree_.for_each_source(from, [&](int source) {
-    if (done && node(source).is_stale) done = send(state, source);
-  });
-  if (!done) return false;
-  front_.begin();
-  tree_.for_each_source(from, [&](int source) { front_.add(node(source).message); });
-  if (tree_.is_leaf(from) && !node(from).hot) add_leaf_to_front(state, from);
-  return condense(from);
-}
-
-/// Eliminates what is complete of the front.
-bool CondensationTree::condense(int at) {
-  overgrown_ = front_.size() > options_.most_in_front;
-  if (overgrown_) return false;
-  Condensed& message = node(at).message;
-  const auto is_complete = [&](int slot, int leaves) {
-    return !node(place(slot).leaf).hot && leaves == place(slot).leaves;
-  };
-  if (!front_.condense(is_complete, message)) return false;
-  for (const int slot : message.eliminated) place(slot).eliminated_at = at;
-  for (const Condensed::Mention& m : message.boundary) {
-    const auto& mean = place(m.slot).mean;
-    message.reference.insert(message.reference.end(), {mean.x(), mean.y()});
-  }
-  node(at).is_stale = false;
-  blocks_touched_ += message.blocks();
-  return true;
-}
-
-/// Brings together at the hub all messages and what the hot leaves own, and eliminates there whatever is not
-/// active.
-bool CondensationTree::fill_zone(const InformationState& state) {
-  const int hub = tree_.hub();
-  bool done = true;
-  tree_.for_each_source(hub, [&](int source) {
-    if (done && node(source).is_stale) done = send(state, source);
-  });
-  if (!done) return false;
-  front_.begin();
-  tree_.for_each_source(hub, [&](int source) { front_.add(node(source).message); });
-  for (const int leaf : hot_leaves_) add_leaf_to_front(state, leaf);
-  if (!condense(hub)) return false;
-  zone_.load(node(hub).message);
-  zone_places_.clear();
-  for (int h = 0; h < zone_.size(); ++h) {
-    Place& p = place(zone_.slot(h));
-    p.hot = h;
-    zone_.set_mean(h, p.mean);
-    if (state.position(zone_.slot(h)) < 0) zone_places_.push_back(h);
-  }
-  zone_followed_at_ = ++epoch_;
-  return zone_places_.empty() || zone_.eliminate(zone_places_);
 }
 
 }  // namespace seif

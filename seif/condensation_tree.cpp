@@ -39,8 +39,8 @@ void CondensationTree::join(const InformationState& state, int slot) {
   places_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
   place(slot).hot = zone_.add(slot, state.mean(slot));
   node(leaf).first_landmark = slot;
+  tree_.widen(leaf, state.mean(slot));
   ++node(leaf).landmarks;
-  front_.add_landmark();
   ++epoch_;
 }
 
@@ -137,13 +137,17 @@ const Eigen::VectorXd& CondensationTree::read_zone(const InformationState& state
   return zone_read_;
 }
 
-Eigen::Vector2d CondensationTree::as_read(int slot) const {
-  const int h = place(slot).hot;
-  return h != none ? Eigen::Vector2d(zone_read_.segment<2>(2 * h)) : Eigen::Vector2d(place(slot).read);
+void CondensationTree::as_read(FrontVariable v, double* mean) const {
+  if (is_group(v)) {
+    Eigen::Map<Eigen::Vector3d>(mean, 3) = node(~v).group.read;
+  } else if (const int h = place(v).hot; h != none) {
+    Eigen::Map<Eigen::Vector2d>(mean, 2) = zone_read_.segment<2>(2 * h);
+  } else {
+    Eigen::Map<Eigen::Vector2d>(mean, 2) = place(v).read;
+  }
 }
 
-/// The landmarks that were eliminated at this node, and at all from there to the hub, follow their
-/// boundaries: d_E = -L^-T G d_B.
+/// What was settled at this node, and at all from there to the hub, follows its boundary.
 void CondensationTree::read(const InformationState& state, int at) const {
   const Node& n = node(at);
   if (n.read_at == epoch_) return;
@@ -153,32 +157,58 @@ void CondensationTree::read(const InformationState& state, int at) const {
   } else {
     read_zone(state);
   }
-  const auto e = 2 * static_cast<Eigen::Index>(n.message.eliminated.size());
-  const auto b = 2 * static_cast<Eigen::Index>(n.message.boundary.size());
-  if (e == 0) return;
+  const Condensed& message = n.message;
+  if (message.e == 0 && message.tied.empty()) return;
+  find_step(message);
+  Eigen::Index row = 0;
+  for (const FrontVariable v : message.eliminated) {
+    if (is_group(v)) {
+      const LandmarkGroup& group = node(~v).group;
+      group.read = group.mean + read_step_.segment<3>(row);
+    } else {
+      place(v).read = place(v).mean + read_step_.segment<2>(row);
+    }
+    row += freedom(v);
+  }
+  for (const Condensed::Tie& tie : message.tied) {
+    const Eigen::Vector3d d = read_step_.segment<3>(tie.row);
+    const Eigen::Vector2d t = d.head<2>() + d(2) * Eigen::Vector2d(-tie.lever.y(), tie.lever.x());
+    if (is_group(tie.variable)) {
+      node(~tie.variable).group.read = tie.reference + Eigen::Vector3d(t.x(), t.y(), d(2));
+    } else {
+      place(tie.variable).read = tie.reference.head<2>() + t;
+    }
+  }
+}
+
+/// The steps of E and B since the message was sent, in read_step_: d_E = L^-T (y - G d_B).
+void CondensationTree::find_step(const Condensed& message) const {
+  const Eigen::Index e = message.e;
+  const Eigen::Index b = message.b;
   if (read_step_.size() < e + b) read_step_.resize(2 * (e + b));
   auto d_E = read_step_.head(e);
   auto d_B = read_step_.segment(e, b);
-  d_B = -Eigen::Map<const Eigen::VectorXd>(n.message.reference.data(), b);
-  Eigen::Index row = 0;
-  for (const Condensed::Mention& m : n.message.boundary) {
-    d_B.segment<2>(row) += as_read(m.slot);
-    row += 2;
-  }
-  const auto columns = n.message.L_and_G();
-  d_E.noalias() = columns.bottomRows(b).transpose() * d_B;
+  step_of(message, d_B);
+  const auto columns = message.L_and_G();
+  d_E = Eigen::Map<const Eigen::VectorXd>(message.y.data(), e);
+  d_E.noalias() -= columns.bottomRows(b).transpose() * d_B;
   columns.topRows(e).triangularView<Eigen::Lower>().transpose().solveInPlace(d_E);
-  row = 0;
-  for (const int slot : n.message.eliminated) {
-    place(slot).read = place(slot).mean - d_E.segment<2>(row);
-    row += 2;
+}
+
+/// How far the boundary of a message has gone on since it was sent.
+void CondensationTree::step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const {
+  Eigen::Index row = 0;
+  for (const Condensed::Member& m : message.boundary) {
+    as_read(m.variable, &d(row));
+    row += freedom(m.variable);
   }
+  d -= Eigen::Map<const Eigen::VectorXd>(message.reference.data(), message.b);
 }
 
 Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) const {
   if (state.position(slot) >= 0) return state.mean(slot);
   if (const int h = place(slot).hot; h != none) return read_zone(state).segment<2>(2 * h);
-  read(state, place(slot).eliminated_at);
+  read(state, place(slot).settled_at);
   return place(slot).read;
 }
 
@@ -189,34 +219,8 @@ void CondensationTree::follow_in_zone(const InformationState& state) {
   blocks_touched_ += std::int64_t{state.active_count()} * zone_.size();
 }
 
-void CondensationTree::follow(const InformationState& state, int at) {
-  if (node(at).followed_at == epoch_) return;
-  node(at).followed_at = epoch_;
-  if (const int next = tree_.towards(at); next != none) {
-    follow(state, next);
-  } else {
-    follow_in_zone(state);
-  }
-  read(state, at);
-  Condensed& message = node(at).message;
-  for (const int slot : message.eliminated) place(slot).mean = place(slot).read;
-  Eigen::Map<Eigen::VectorXd> reference(message.reference.data(),
-                                        static_cast<Eigen::Index>(message.reference.size()));
-  Eigen::Index row = 0;
-  for (const Condensed::Mention& m : message.boundary) {
-    reference.segment<2>(row) = as_read(m.slot);
-    row += 2;
-  }
-  blocks_touched_ += message.blocks();
-}
-
-/// Where move_zone() has stopped halfway, the nodes that it was about to change have followed before.
-void CondensationTree::write_means(InformationState& state) {
-  for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    if (state.position(slot) >= 0) continue;
-    if (const int at = place(slot).eliminated_at; at != none) follow(state, at);
-    state.set_mean(slot, place(slot).mean);
-  }
+int CondensationTree::settled_at(FrontVariable v) const {
+  return is_group(v) ? node(~v).group.settled_at : place(v).settled_at;
 }
 
 std::size_t CondensationTree::memory_bytes() const {

@@ -28,9 +28,11 @@
 namespace seif {
 
 struct CondensationOptions {
-  int most_in_leaf = 16;    // [-] landmarks of a leaf as it grows
-  int most_hot = 32;        // [-] landmarks beyond which leaves without an active one do not stay hot
-  int most_in_front = 400;  // [-] landmarks about one node: bounds the work of an update
+  int most_in_leaf = 8;  // [-] landmarks of a leaf as it grows
+  int most_hot = 24;     // [-] landmarks beyond which leaves without an active one do not stay hot
+  /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
+  int most_unknowns = 160;
+  double grain = 0.25;  // [-] distance over size of the coarsest groups
 };
 
 /// All r of passive landmarks are zero at the means that it tells; the state holds stale ones.
@@ -42,11 +44,8 @@ class CondensationTree {
   /// are now. False if a matrix is not positive definite, as below.
   [[nodiscard]] bool activate(InformationState& state, std::span<const int> slots);
 
-  /// Whether activate() has returned false because a front would have held more than most_in_front landmarks:
-  /// write_means() is all that may still be called then.
-  bool is_overgrown() const { return overgrown_; }
-  /// Into the state, whose r then is that of its means; at the cost of a pass over the map.
-  void write_means(InformationState& state);
+  /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
+  [[nodiscard]] bool solve_all(InformationState& state);
 
   /// A landmark that has just joined the map, before it becomes active.
   void join(const InformationState& state, int slot);
@@ -80,21 +79,45 @@ class CondensationTree {
   }
 
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
-  bool move_zone(const InformationState& state);
+  bool move_zone(InformationState& state);
+  bool send_stale(InformationState& state, int hub);
+  void mark_changed_leaves();
+  void mark_stale(const InformationState& state, int at);
+  bool mark_expired(const InformationState& state, int at);
+  double distance_ratio(int group);
+  void note_zone_residual(const InformationState& state);
+  void take_from_loose(int at);
+  void loosen(int leaf);
+  void switch_leaves(const InformationState& state, int hub);
   int leaf_for(const Eigen::Vector2d& p);
   int add_leaf(const Eigen::Vector2d& place);
 
   void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
   void follow_in_zone(const InformationState& state);
-  void follow(const InformationState& state, int at);
+  int settled_at(FrontVariable v) const;
   const Eigen::VectorXd& read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
-  Eigen::Vector2d as_read(int slot) const;
+  void as_read(FrontVariable v, double* mean) const;
+  void note_groups(const Condensed& message);
+  void settle(FrontVariable v, int at);
+  void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
+  void find_step(const Condensed& message) const;
+  void reserve_boundary(Eigen::Index rows);
+  Eigen::VectorXd::SegmentReturnType residual_of(const Condensed& message);
   int count_leaves(const InformationState& state, int slot) const;
   void add_leaf_to_front(const InformationState& state, int leaf);
   bool send(const InformationState& state, int from);
-  bool condense(int at);
-  bool fill_zone(const InformationState& state);
+  bool condense(const InformationState& state, int at);
+  void condense_residual(int at);
+  bool is_complete(int at, FrontVariable v, int balance) const;
+  void tie_front(const InformationState& state, int at);
+  void tie(const InformationState& state, std::size_t index, int target, std::vector<int>& groups);
+  void note_reach(int at);
+  int count_unknowns(double ratio);
+  int group_for(FrontVariable v, double ratio);
+  int node_of(FrontVariable v) const;
+  bool fill_zone(InformationState& state);
+  void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& s);
   CondensationOptions options_;
   LeafTree tree_;
   ChunkedArray<Node> nodes_;
@@ -110,9 +133,14 @@ class CondensationTree {
   mutable std::int64_t zone_read_at_ = 0;
   mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
   int scan_ = 0, visit_ = 0;
-  bool overgrown_ = false;
-  Eigen::MatrixXd M_;              // (w x w), with room to grow
-  Eigen::VectorXd step_, change_;  // (w), with room to grow
+  bool groups_allowed_ = true;
+  int fronts_ = 0, counts_ = 0;
+  bool any_present_ = false;
+  std::vector<int> stale_;  // nodes, as the zone moves
+  std::vector<int> targets_;
+  Eigen::MatrixXd M_;                     // (w x w), with room to grow
+  Eigen::VectorXd part_step_, gradient_;  // with room to grow
+  Eigen::VectorXd step_, change_;         // (w), with room to grow
   std::int64_t blocks_touched_ = 0;
 };
 

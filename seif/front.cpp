@@ -6,89 +6,198 @@
 namespace seif {
 
 void Condensed::clear() {
-  boundary.clear();
   eliminated.clear();
+  boundary.clear();
+  tied.clear();
+  e = b = 0;
   factor.clear();
   S.clear();
+  y.clear();
+  s.clear();
   reference.clear();
 }
 
+void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const {
+  r = Eigen::Map<const Eigen::VectorXd>(s.data(), b);
+  const double* column = S.data();
+  for (Eigen::Index j = 0; j < b; ++j) {
+    const Eigen::Map<const Eigen::VectorXd> S_j(column, b - j);
+    r(j) -= S_j.dot(d.tail(b - j));
+    r.tail(b - j - 1) -= d(j) * S_j.tail(b - j - 1);
+    column += b - j;
+  }
+}
+
 std::size_t Condensed::memory_bytes() const {
-  return boundary.capacity() * sizeof(Mention) + eliminated.capacity() * sizeof(int) +
-         (factor.capacity() + S.capacity() + reference.capacity()) * sizeof(double);
+  return boundary.capacity() * sizeof(Member) + eliminated.capacity() * sizeof(FrontVariable) +
+         tied.capacity() * sizeof(Tie) +
+         (factor.capacity() + S.capacity() + y.capacity() + s.capacity() + reference.capacity()) *
+             sizeof(double);
 }
 
 void Front::begin() {
   ++front_;
-  entries_.clear();
+  variables_.clear();
   blocks_.clear();
   parts_.clear();
 }
 
-std::size_t Front::entry_of(int slot) {
-  Place& place = places_[static_cast<std::size_t>(slot)];
-  if (place.front != front_) {
-    place.front = front_;
-    place.entry = static_cast<int>(entries_.size());
-    entries_.push_back({.slot = slot, .leaves = 0, .row = 0});
+Front::Place& Front::place(FrontVariable v) {
+  ChunkedArray<Place>& places = is_group(v) ? groups_ : landmarks_;
+  const auto i = static_cast<std::size_t>(is_group(v) ? ~v : v);
+  while (places.size() <= i) places.push_back({});
+  return places[i];
+}
+
+std::size_t Front::index_of(FrontVariable v) {
+  Place& p = place(v);
+  if (p.front != front_) {
+    p.front = front_;
+    p.index = static_cast<int>(variables_.size());
+    variables_.push_back({.variable = v, .balance = 0, .group = v, .lever = Eigen::Vector2d::Zero()});
   }
-  return static_cast<std::size_t>(place.entry);
+  return static_cast<std::size_t>(p.index);
 }
 
 void Front::add(const Condensed& part) {
   if (part.boundary.empty()) return;
-  for (const Condensed::Mention& m : part.boundary) entries_[entry_of(m.slot)].leaves += m.leaves;
+  for (const Condensed::Member& m : part.boundary) variables_[index_of(m.variable)].balance += m.balance;
   parts_.push_back(&part);
 }
 
 void Front::add(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij) {
-  blocks_.push_back({.entry_i = entry_of(slot_i), .entry_j = entry_of(slot_j), .Omega_ij = Omega_ij});
+  blocks_.push_back({.i = slot_i, .j = slot_j, .Omega_ij = Omega_ij});
 }
 
-int Front::row_of(int slot) const {
-  return entries_[static_cast<std::size_t>(places_[static_cast<std::size_t>(slot)].entry)].row;
+void Front::tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever) {
+  variables_[index_of(group)].balance += variables_[index].balance;
+  variables_[index].group = group;
+  variables_[index].lever = lever;
 }
 
-void Front::assemble(const Condensed& out, Eigen::Index size) {
+// Rows.
+
+void Front::give_rows(const Condensed& front) {
   int row = 0;
-  const auto give_row = [&](int slot) {
-    entries_[entry_of(slot)].row = row;
-    row += 2;
+  const auto give = [&](FrontVariable v) {
+    Place& p = place(v);
+    p.front = front_;
+    p.row = row;
+    p.tied = false;
+    row += freedom(v);
   };
-  for (const int slot : out.eliminated) give_row(slot);
-  for (const Condensed::Mention& m : out.boundary) give_row(m.slot);
-
-  if (M_.rows() < size) M_.resize(2 * size, 2 * size);
-  for (Eigen::Index col = 0; col < size; ++col) M_.col(col).segment(col, size - col).setZero();
-  for (const Block& block : blocks_) {
-    const int i = entries_[block.entry_i].row;
-    const int j = entries_[block.entry_j].row;
-    if (i >= j) {
-      M_.block<2, 2>(i, j) += block.Omega_ij;
-    } else {
-      M_.block<2, 2>(j, i) += block.Omega_ij.transpose();
-    }
+  for (const FrontVariable v : front.eliminated) give(v);
+  for (const Condensed::Member& m : front.boundary) give(m.variable);
+  for (const Condensed::Tie& tie : front.tied) {
+    Place& p = place(tie.variable);
+    p.front = front_;
+    p.row = tie.row;
+    p.tied = true;
+    p.lever = tie.lever;
   }
-  for (const Condensed* part : parts_) {
-    rows_.clear();
-    for (const Condensed::Mention& m : part->boundary) {
-      rows_.push_back(row_of(m.slot));
-      rows_.push_back(rows_.back() + 1);
-    }
-    const double* S = part->S.data();
-    for (std::size_t j = 0; j < rows_.size(); ++j) {
-      for (std::size_t i = j; i < rows_.size(); ++i) {
-        M_(std::max(rows_[i], rows_[j]), std::min(rows_[i], rows_[j])) += *S++;
+  size_ = row;
+}
+
+void Front::add_targets(FrontVariable v) {
+  const Place& p = place(v);
+  constexpr int none = -1;
+  const int turn = p.tied ? p.row + 2 : none;
+  targets_.push_back({p.row, turn, -p.lever.y()});
+  targets_.push_back({p.row + 1, turn, p.lever.x()});
+  if (is_group(v)) targets_.push_back({p.row + 2, none, 0.0});
+  any_tied_ = any_tied_ || p.tied;
+}
+
+void Front::find_targets(const Condensed& part) {
+  targets_.clear();
+  any_tied_ = false;
+  for (const Condensed::Member& m : part.boundary) add_targets(m.variable);
+}
+
+// The matrix.
+
+void Front::add_entry(int i, int j, double value) { M_(std::max(i, j), std::min(i, j)) += value; }
+
+/// Of P' A P, what one entry of A and its mirror image add to the lower triangle.
+void Front::add_product(const Target& i, const Target& j, double value, bool diagonal) {
+  const auto add = [&](int row_i, int row_j, double term) {
+    add_entry(row_i, row_j, row_i == row_j && !diagonal ? 2.0 * term : term);
+  };
+  add(i.row, j.row, value);
+  if (i.second >= 0) add(i.second, j.row, i.weight * value);
+  if (j.second >= 0 && !diagonal) add(i.row, j.second, j.weight * value);
+  if (i.second >= 0 && j.second >= 0) add(i.second, j.second, i.weight * j.weight * value);
+}
+
+void Front::assemble(const Condensed& out) {
+  give_rows(out);
+  if (M_.rows() < size_) M_.resize(2 * size_, 2 * size_);
+  for (Eigen::Index col = 0; col < size_; ++col) M_.col(col).segment(col, size_ - col).setZero();
+  for (const Block& block : blocks_) {
+    targets_.clear();
+    add_targets(block.i);
+    add_targets(block.j);
+    const bool diagonal = block.i == block.j;
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < (diagonal ? a + 1 : 2); ++b) {
+        add_product(targets_[static_cast<std::size_t>(a)], targets_[static_cast<std::size_t>(2 + b)],
+                    block.Omega_ij(a, b), diagonal && a == b);
       }
     }
   }
+  for (const Condensed* part : parts_) {
+    find_targets(*part);
+    if (any_tied_) {
+      add_tied(*part);
+      continue;
+    }
+    const double* S = part->S.data();
+    for (std::size_t j = 0; j < targets_.size(); ++j) {
+      for (std::size_t i = j; i < targets_.size(); ++i) add_entry(targets_[i].row, targets_[j].row, *S++);
+    }
+  }
+}
+
+/// P' S P, column by column of S. Adds to the upper triangle too, which nobody reads.
+void Front::add_tied(const Condensed& part) {
+  if (part_.rows() < part.b) part_.resize(2 * part.b, 2 * part.b);
+  if (r_.size() < size_) r_.resize(2 * size_);
+  const double* S = part.S.data();
+  for (Eigen::Index col = 0; col < part.b; ++col) {
+    const Eigen::Map<const Eigen::VectorXd> below(S, part.b - col);
+    part_.col(col).segment(col, part.b - col) = below;
+    part_.row(col).segment(col, part.b - col) = below;
+    S += part.b - col;
+  }
+  auto column = r_.head(size_);
+  for (Eigen::Index j = 0; j < part.b; ++j) {
+    column.setZero();
+    for (Eigen::Index i = 0; i < part.b; ++i) add_to_rows(targets_[static_cast<std::size_t>(i)], part_(i, j));
+    const Target& target = targets_[static_cast<std::size_t>(j)];
+    M_.col(target.row).head(size_) += column;
+    if (target.second >= 0) M_.col(target.second).head(size_) += target.weight * column;
+  }
+}
+
+void Front::add_to_rows(const Target& target, double value) {
+  r_(target.row) += value;
+  if (target.second >= 0) r_(target.second) += target.weight * value;
 }
 
 bool Front::factorise(Condensed& out) {
-  const auto e = 2 * static_cast<Eigen::Index>(out.eliminated.size());
-  const auto b = 2 * static_cast<Eigen::Index>(out.boundary.size());
-  const auto n = e + b;
-  assemble(out, n);
+  give_rows(out);
+  for (const Variable& v : variables_) {
+    if (v.group != v.variable) {
+      out.tied.push_back({.variable = v.variable,
+                          .row = place(v.group).row,
+                          .lever = v.lever,
+                          .reference = Eigen::Vector3d::Zero()});
+    }
+  }
+  assemble(out);
+  const Eigen::Index e = out.e;
+  const Eigen::Index b = out.b;
+  const Eigen::Index n = e + b;
   auto M_EE = M_.topLeftCorner(e, e);
   auto M_BE = M_.block(e, 0, b, e);
   auto M_BB = M_.block(e, e, b, b);
@@ -110,9 +219,40 @@ bool Front::factorise(Condensed& out) {
   return true;
 }
 
+// The residual.
+
+void Front::begin_residual(const Condensed& front) {
+  ++front_;
+  give_rows(front);
+  if (r_.size() < size_) r_.resize(2 * size_);
+  r_.head(size_).setZero();
+}
+
+void Front::add_residual(const Condensed& part, const Eigen::Ref<const Eigen::VectorXd>& r) {
+  find_targets(part);
+  for (Eigen::Index i = 0; i < part.b; ++i) add_to_rows(targets_[static_cast<std::size_t>(i)], r(i));
+}
+
+void Front::add_residual(int slot, const Eigen::Vector2d& r) {
+  targets_.clear();
+  add_targets(slot);
+  add_to_rows(targets_[0], r.x());
+  add_to_rows(targets_[1], r.y());
+}
+
+void Front::condense_residual(Condensed& front) {
+  auto y = r_.head(front.e);
+  auto s = r_.segment(front.e, front.b);
+  const auto columns = front.L_and_G();
+  columns.topRows(front.e).triangularView<Eigen::Lower>().solveInPlace(y);
+  s.noalias() -= columns.bottomRows(front.b) * y;
+  front.y.assign(y.begin(), y.end());
+  front.s.assign(s.begin(), s.end());
+}
+
 std::size_t Front::memory_bytes() const {
-  return places_.memory_bytes() + entries_.capacity() * sizeof(Entry) + blocks_.capacity() * sizeof(Block) +
-         static_cast<std::size_t>(M_.size()) * sizeof(double);
+  return landmarks_.memory_bytes() + groups_.memory_bytes() + variables_.capacity() * sizeof(Variable) +
+         blocks_.capacity() * sizeof(Block) + static_cast<std::size_t>(M_.size()) * sizeof(double);
 }
 
 }  // namespace seif

@@ -1,10 +1,14 @@
 // Elimination of landmarks from a part of the information matrix: what nodes of the condensation tree do.
 //
 //   a part of Omega       eliminated E   boundary B
-//   (a front)         E [ M_EE                      ]       M_EE = L L',  G = L^-1 M_EB
-//                     B [ M_BE           M_BB       ]       condensed: S = M_BB - G' G
+//   (a front)         E [ M_EE                      ]       M_EE = L L',  G = L^-1 M_EB,  y = L^-1 r_E
+//                     B [ M_BE           M_BB       ]       condensed: S = M_BB - G' G,  s = r_B - G' y
 //
-// E must have all its blocks in this front. Where the mean of B goes by d_B, that of E goes by -L^-T G d_B.
+// E must have all its blocks in this front. Where the mean of B goes by d_B, that of E goes by
+// L^-T (y - G d_B).
+//
+// The variables of a front are landmarks, and groups of landmarks that move as one rigid body. What is tied
+// to a group has no rows of its own; it moves by t + phi J lever where the group moves by (t, phi).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,92 +19,141 @@
 
 namespace seif {
 
-/// What a front leaves behind. Landmarks go by their slots.
+/// A landmark goes by its slot, a group by the complement of a number of its own.
+using FrontVariable = int;
+constexpr FrontVariable group_variable(int group) { return ~group; }
+constexpr bool is_group(FrontVariable v) { return v < 0; }
+constexpr int freedom(FrontVariable v) { return is_group(v) ? 3 : 2; }  // (x, y), or (x, y, phi)
+
+/// What a front leaves behind.
 struct Condensed {
-  /// A landmark of the boundary.
-  struct Mention {
-    int slot;
-    int leaves;  // [-] of those condensed here, how many mention it
+  struct Member {
+    FrontVariable variable;
+    int balance;  // [-] see Front::mention
   };
-  std::vector<Mention> boundary;  // b / 2
-  std::vector<int> eliminated;    // e / 2
+  struct Tie {
+    FrontVariable variable;
+    int row;  // of its group, in E and B
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+    Eigen::Matrix<double, 3, 1, Eigen::DontAlign> reference;  // its mean (2, or 3 of a group) at that of B
+  };
+  std::vector<FrontVariable> eliminated;
+  std::vector<Member> boundary;
+  std::vector<Tie> tied;
+  int e = 0, b = 0;               // [-] rows of E, of B
   std::vector<double> factor;     // (e + b x e) [L; G'], by column
   std::vector<double> S;          // (b x b) lower triangle, by column
-  std::vector<double> reference;  // (b) the mean of the boundary for which that of E holds [m]
+  std::vector<double> y;          // (e)
+  std::vector<double> s;          // (b) the residual where B is at its reference
+  std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
 
-  auto L_and_G() const {
-    const auto e = 2 * static_cast<Eigen::Index>(eliminated.size());
-    const auto b = 2 * static_cast<Eigen::Index>(boundary.size());
-    return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e);
-  }
+  auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
   /// The distinct blocks of it.
   std::int64_t blocks() const {
     const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
     return n * (n + 1) / 2;
   }
+  /// s - S d: the residual of B where its mean has gone by d (b) since its reference.
+  void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
   void clear();
   std::size_t memory_bytes() const;
 };
 
 class Front {
  public:
-  /// A landmark has joined the map: slots come in order.
-  void add_landmark() { places_.push_back({}); }
+  struct Variable {
+    FrontVariable variable;
+    int balance;
+    FrontVariable group;  // that it is tied to, or itself
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+  };
 
   void begin();
   /// The front takes in what another has left.
   void add(const Condensed& part);
-  /// A leaf has blocks of this landmark.
-  void mention(int slot) { entries_[entry_of(slot)].leaves += 1; }
+  /// The front takes in blocks of a landmark. The balance counts the leaves that hold blocks of it behind the
+  /// front; once its own is among them, less all that there are.
+  void mention(int slot, int balance) { variables_[index_of(slot)].balance += balance; }
   /// Omega_ij; both must be mentioned. For i == j the lower triangle counts.
   void add(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij);
 
-  /// Eliminates all landmarks of which is_complete(slot, leaves that mention it here) holds. False if their
-  /// block is not positive definite. `out` may not be one that was added.
+  /// All that is in it so far, in the order in which it came.
+  const std::vector<Variable>& variables() const { return variables_; }
+  /// From now on a variable moves with a group, which becomes one of the front if it is not.
+  void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
+
+  /// Eliminates all variables of which is_complete(variable, balance) holds. False if their block is not
+  /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
   template <class IsComplete>
   [[nodiscard]] bool condense(IsComplete&& is_complete, Condensed& out) {
     out.clear();
-    for (const Entry& entry : entries_) {
-      if (is_complete(entry.slot, entry.leaves)) {
-        out.eliminated.push_back(entry.slot);
+    for (const Variable& v : variables_) {
+      if (v.group != v.variable) continue;
+      if (is_complete(v.variable, v.balance)) {
+        out.eliminated.push_back(v.variable);
+        out.e += freedom(v.variable);
       } else {
-        out.boundary.push_back({entry.slot, entry.leaves});
+        out.boundary.push_back({v.variable, v.balance});
+        out.b += freedom(v.variable);
       }
     }
     return factorise(out);
   }
 
-  /// The landmarks in it. [-]
-  int size() const { return static_cast<int>(entries_.size()); }
+  // The residual of a front that has been condensed.
+  void begin_residual(const Condensed& front);
+  /// What a part holds of the residual of its boundary (b).
+  void add_residual(const Condensed& part, const Eigen::Ref<const Eigen::VectorXd>& r);
+  void add_residual(int slot, const Eigen::Vector2d& r);
+  /// Sets y and s.
+  void condense_residual(Condensed& front);
+
+  /// Unknowns of it. [-]
+  int size() const { return size_; }
   std::size_t memory_bytes() const;
 
  private:
-  struct Entry {
-    int slot;
-    int leaves;
-    int row;
-  };
   struct Place {
     int front = 0;  // number of the front in which it was last
-    int entry = 0;
+    int index = 0;  // among variables_, until it has a row
+    int row = 0;
+    bool tied = false;
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
   };
   struct Block {
-    std::size_t entry_i, entry_j;
+    FrontVariable i, j;
     Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
   };
+  /// Where a row of a part goes: to one row of the front, or, tied, to a second one with this weight.
+  struct Target {
+    int row;
+    int second;
+    double weight;
+  };
 
-  std::size_t entry_of(int slot);
-  int row_of(int slot) const;
-  void assemble(const Condensed& out, Eigen::Index size);
+  Place& place(FrontVariable v);
+  std::size_t index_of(FrontVariable v);
+  void give_rows(const Condensed& front);
+  void add_targets(FrontVariable v);
+  void find_targets(const Condensed& part);
+  void add_entry(int i, int j, double value);
+  void add_product(const Target& i, const Target& j, double value, bool diagonal);
+  void add_tied(const Condensed& part);
+  void add_to_rows(const Target& target, double value);
+  void assemble(const Condensed& out);
   bool factorise(Condensed& out);
 
   int front_ = 0;
-  ChunkedArray<Place> places_;
-  std::vector<Entry> entries_;
+  int size_ = 0;
+  ChunkedArray<Place> landmarks_, groups_;
+  std::vector<Variable> variables_;
   std::vector<Block> blocks_;
   std::vector<const Condensed*> parts_;
-  std::vector<int> rows_;  // of the boundary of one part
-  Eigen::MatrixXd M_;      // lower triangle, with room to grow
+  std::vector<Target> targets_;  // of the rows of one part
+  bool any_tied_ = false;        // among them
+  Eigen::MatrixXd M_;            // lower triangle, with room to grow, as all below
+  Eigen::MatrixXd part_;
+  Eigen::VectorXd r_;
 };
 
 }  // namespace seif

@@ -20,7 +20,8 @@ void HotZone::reserve(int landmarks) {
 void HotZone::load(const Condensed& without) {
   members_.clear();
   reserve(static_cast<int>(without.boundary.size()));
-  for (const Condensed::Mention& m : without.boundary) members_.push_back({.slot = m.slot, .active = true});
+  for (const Condensed::Member& m : without.boundary)
+    members_.push_back({.slot = m.variable, .active = true});
   const auto n = 2 * static_cast<Eigen::Index>(size());
   const double* S = without.S.data();
   for (Eigen::Index col = 0; col < n; ++col) {

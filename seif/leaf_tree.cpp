@@ -19,16 +19,39 @@ std::uint64_t spread_bits(std::uint64_t x) {  // 16 of them, to every second pla
   return (x | x << 1) & 0x55555555;
 }
 
+constexpr double half = 32768.0;  // [-] cells on either side of the origin
+
 std::uint64_t cell_of(double coordinate) {
-  constexpr double half = 32768.0;
   return static_cast<std::uint64_t>(std::clamp(coordinate / cell + half, 0.0, 2.0 * half - 1.0));
 }
 
+Eigen::Rotation2Dd grid_from_world() { return Eigen::Rotation2Dd(turn); }
+
 /// The cell of a place, by both coordinates' bits in turns, and then what tells it from others there.
 std::uint64_t key_of(const Eigen::Vector2d& place, int leaf) {
-  const double x = std::cos(turn) * place.x() - std::sin(turn) * place.y();
-  const double y = std::sin(turn) * place.x() + std::cos(turn) * place.y();
-  return (spread_bits(cell_of(x)) << 1 | spread_bits(cell_of(y))) << 32 | static_cast<std::uint64_t>(leaf);
+  const Eigen::Vector2d p = grid_from_world() * place;
+  return (spread_bits(cell_of(p.x())) << 1 | spread_bits(cell_of(p.y()))) << 32 |
+         static_cast<std::uint64_t>(leaf);
+}
+
+std::uint64_t gather_bits(std::uint64_t x) {  // what spread_bits() has spread
+  x &= 0x55555555;
+  x = (x | x >> 1) & 0x33333333;
+  x = (x | x >> 2) & 0x0F0F0F0F;
+  x = (x | x >> 4) & 0x00FF00FF;
+  return (x | x >> 8) & 0x0000FFFF;
+}
+
+/// The rectangle of all places whose keys differ from this one in no bit above `bit`.
+LeafTree::Box rectangle_of(std::uint64_t key, int bit) {
+  const int free = std::max(bit - 31, 0);  // of the place's bits, the last of y first
+  const auto side = [](std::uint64_t bits, int free_bits) -> Eigen::Vector2d {
+    const double from = static_cast<double>(gather_bits(bits) >> free_bits << free_bits) - half;
+    return Eigen::Vector2d(from, from + static_cast<double>(1U << static_cast<unsigned>(free_bits))) * cell;
+  };
+  const Eigen::Vector2d x = side(key >> 33, free / 2);
+  const Eigen::Vector2d y = side(key >> 32, (free + 1) / 2);
+  return {Eigen::Vector2d(x(0), y(0)), Eigen::Vector2d(x(1), y(1))};
 }
 
 }  // namespace
@@ -53,6 +76,7 @@ int LeafTree::add_leaf(const Eigen::Vector2d& place) {
   const std::size_t side = key >> bit & 1U;
   at(inner).key = key;
   at(inner).bit = bit;
+  at(inner).box = rectangle_of(key, bit);
   at(inner).child[side] = leaf;
   at(inner).child[1 - side] = sibling;
   at(leaf).parent = at(leaf).towards = inner;
@@ -78,6 +102,20 @@ int LeafTree::insert_above(int below) {
     at(inner).towards = below;
   }
   return inner;
+}
+
+bool LeafTree::is_within(int node, int ancestor) const {
+  const int bit = at(ancestor).bit;
+  if (bit == none) return node == ancestor;
+  return at(node).bit <= bit && (at(node).key ^ at(ancestor).key) >> bit < 2;
+}
+
+Eigen::Vector2d LeafTree::centre(int node) const {
+  return grid_from_world().inverse() * Eigen::Vector2d(box(node).center());
+}
+
+void LeafTree::widen(int leaf, const Eigen::Vector2d& place) {
+  at(leaf).box.extend(Eigen::Vector2d(grid_from_world() * place));
 }
 
 int LeafTree::common_ancestor(std::span<const int> leaves) {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,9 +35,30 @@ class LeafTree {
 
   int size() const { return static_cast<int>(nodes_.size()); }
   bool is_leaf(int node) const { return at(node).child[0] == none; }
+  /// none for the root.
+  int parent(int node) const { return at(node).parent; }
+  /// Whether `node` is `ancestor`, or stands below it.
+  bool is_within(int node, int ancestor) const;
+
+  using Box = Eigen::AlignedBox2d;
+  /// Of an inner node: the rectangle that it stands for, whatever leaves are yet to come. Of a leaf: what it
+  /// has been widened to. In the grid's frame. [m]
+  const Box& box(int node) const { return at(node).box; }
+  /// Of its box, in the world. [m]
+  Eigen::Vector2d centre(int node) const;
+  void widen(int leaf, const Eigen::Vector2d& place);
+
   int hub() const { return hub_; }
   /// none for the hub.
   int towards(int node) const { return at(node).towards; }
+
+  template <class Visit>
+  void for_each_neighbour(int node, Visit&& visit) const {
+    const Node& n = at(node);
+    for (const int neighbour : {n.child[0], n.child[1], n.parent}) {
+      if (neighbour != none) visit(neighbour);
+    }
+  }
 
   /// Visits the neighbours of a node but that on the way to the hub.
   template <class Visit>
@@ -60,6 +82,7 @@ class LeafTree {
     int parent = none;
     int child[2] = {none, none};
     int towards = none;
+    Box box;
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
     int marks = 0;          // of the leaves that common_ancestor() has gone up from

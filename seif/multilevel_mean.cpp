@@ -316,54 +316,6 @@ void MultilevelMean::after_information(const InformationState& state) {
   }
 }
 
-void MultilevelMean::take_in(const InformationState& state) {
-  if (state.landmark_count() == 0) return;
-  take_in_window(state);
-  for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    if (state.position(slot) < 0) take_in(slot, slot, state.information(slot));
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (other < slot) take_in(slot, other, Omega_so);
-    });
-  }
-  for (int level = 1; level < group(root_).level; ++level) take_in_level(level);
-}
-
-/// Into level 1: Omega_ij of a landmark, or of a pair in one of its orders.
-void MultilevelMean::take_in(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij) {
-  const Member& i = member(slot_i);
-  const Member& j = member(slot_j);
-  const Eigen::Matrix3d A = point_in_group(i.lever).transpose() * Omega_ij * point_in_group(j.lever);
-  add_information(i.group, j.group, A);
-  if (i.group == j.group && slot_i != slot_j) add_information(i.group, i.group, A.transpose());
-}
-
-void MultilevelMean::take_in_window(const InformationState& state) {
-  if (state.active_count() == 0) return;
-  without_robot(state, half_, D_after_);
-  for (int p = 0; p < state.active_count(); ++p) {
-    for (int q = 0; q <= p; ++q) {
-      take_in(state.active(p), state.active(q), D_after_.block<2, 2>(2 * p, 2 * q));
-    }
-  }
-}
-
-/// From a level into the one above.
-void MultilevelMean::take_in_level(int level) {
-  const auto to_parent = [&](const Group& g) { return group_in_group(g.centre - group(g.parent).centre); };
-  const ChunkedArray<int>& all = levels_[static_cast<std::size_t>(level - 1)];
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Group& g = group(all[k]);
-    add_information(g.parent, g.parent, to_parent(g).transpose() * g.A * to_parent(g));
-    for (const Link& l : g.links) {
-      if (l.other < all[k]) continue;  // each pair once
-      const Group& other = group(l.other);
-      const Eigen::Matrix3d A = to_parent(g).transpose() * l.A * to_parent(other);
-      add_information(g.parent, other.parent, A);
-      if (g.parent == other.parent) add_information(g.parent, g.parent, A.transpose());
-    }
-  }
-}
-
 // The solution.
 
 Eigen::VectorXd::SegmentReturnType MultilevelMean::window_step(const InformationState& state) {

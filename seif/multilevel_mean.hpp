@@ -51,9 +51,6 @@ class MultilevelMean {
   void before_information(const InformationState& state);
   void after_information(const InformationState& state);
 
-  /// Instead of these for all scans so far, at the cost of a pass over the map: all that Omega holds.
-  void take_in(const InformationState& state);
-
   /// The mean of robot and active landmarks given that of the others. False, with nothing changed, if the
   /// window's Omega is not positive definite.
   [[nodiscard]] bool solve_window(InformationState& state);
@@ -120,9 +117,6 @@ class MultilevelMean {
   void add_force_of(int slot, const Eigen::Vector2d& f);
   void pass_forces_on();
   void add_information(int i, int j, const Eigen::Matrix3d& A);
-  void take_in(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij);
-  void take_in_window(const InformationState& state);
-  void take_in_level(int level);
   Eigen::Matrix3d& link(int i, int j);
 
   Eigen::Vector3d residual_force(int i) const;

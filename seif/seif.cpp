@@ -51,21 +51,11 @@ void Seif::activate_known(const Scan& scan) {
   for (const Observation& observation : scan.observations) {
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
-  if (by_tree_) activate_by_tree(scan.t);
+  if (by_tree_ && !tree_.activate(state_, seen_)) throw NumericalFailure("activation", scan.t);
   for (const int slot : seen_) {
     if (state_.position(slot) < 0) mean_.activate(state_, slot);
     state_.mark_seen(slot);
   }
-}
-
-/// A tree that has grown too wide hands over to the groups, once and for all, at the cost of a pass over the
-/// map.
-void Seif::activate_by_tree(double t) {
-  if (tree_.activate(state_, seen_)) return;
-  if (!tree_.is_overgrown()) throw NumericalFailure("activation", t);
-  tree_.write_means(state_);
-  mean_.take_in(state_);
-  by_tree_ = false;
 }
 
 /// All linearised before the first is added.
@@ -124,8 +114,11 @@ bool Seif::add_new(const Scan& scan) {
       slot = state_.add_landmark(
           observation.landmark,
           invert_observation(state_.pose(), T_robot_sensor_, observation).p_world_landmark);
-      mean_.join(state_, *slot);
-      if (by_tree_) tree_.join(state_, *slot);
+      if (by_tree_) {
+        tree_.join(state_, *slot);
+      } else {
+        mean_.join(state_, *slot);
+      }
       state_.mark_seen(*slot);
     }
     add(state_, linearise(state_, *slot, observation, T_robot_sensor_));

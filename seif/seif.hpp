@@ -14,7 +14,7 @@ namespace seif {
 /// Where Seif gets its mean from.
 enum class SeifMean {
   multilevel,  // rigid groups of landmarks, MultilevelMean: constant time, on its way to the exact mean
-  tree,        // CondensationTree: exact, until a map has grown too wide for it; from then on multilevel
+  tree,        // CondensationTree: exact in corridors, nearly so where large areas are covered
   exact        // sparse Cholesky: exact, not in constant time
 };
 
@@ -64,7 +64,6 @@ class Seif final : public Estimator {
  private:
   Eigen::Vector2d mean(int slot) const;
   void activate_known(const Scan& scan);
-  void activate_by_tree(double t);
   void add_known(const Scan& scan);
   bool is_closing(int slot, const Observation& observation) const;
   [[nodiscard]] bool add_new(const Scan& scan);
@@ -77,7 +76,7 @@ class Seif final : public Estimator {
   InformationState state_;
   MultilevelMean mean_;
   CondensationTree tree_;
-  bool by_tree_;  // whether the mean is the tree's
+  const bool by_tree_;  // whether the mean is the tree's
   Pose2 T_robot_sensor_;
   double anchoring_ = 0.0;                  // [nat]
   std::vector<ObservationFactor> factors_;  // of the latest scan

@@ -114,8 +114,23 @@ EstimatorType seif() {
       .fallback = std::string("multilevel"),
       .choices = {"multilevel", "tree", "exact"},
       .help =
-          "How the mean is recovered: by rigid groups, nearly; along a condensation "
-          "tree, exactly, fast in corridors; exactly, not in constant time."};
+          "How the mean is recovered: by rigid groups, nearly; along a condensation tree, exactly in "
+          "corridors "
+          "and nearly so in areas, with bursts of work; exactly, not in constant time."};
+  const OptionSpec tree_unknowns{
+      .key = "tree_unknowns",
+      .fallback = std::int64_t{defaults.tree.most_unknowns},
+      .min = 8,
+      .max = 1'000'000,
+      .help =
+          "With the tree: unknowns about one node beyond which landmarks far from the robot move as rigid "
+          "groups [-]."};
+  const OptionSpec tree_grain{
+      .key = "tree_grain",
+      .fallback = defaults.tree.grain,
+      .min = 0.1,
+      .max = 100.0,
+      .help = "With the tree: distance from the robot over size of the coarsest groups [-]."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},
@@ -133,7 +148,7 @@ EstimatorType seif() {
       .help =
           "Ours: gauge-free sparsification, null space from first estimates, multilevel mean; constant time.",
       .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
-                  other_groups, relaxed_groups},
+                  other_groups, relaxed_groups, tree_unknowns, tree_grain},
       .make = [=](const EstimatorSetup& setup, const Options& options) {
         SeifOptions chosen;
         chosen.theta_x = integer(options, theta_x);
@@ -144,6 +159,8 @@ EstimatorType seif() {
         chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
         chosen.multilevel.other_groups = integer(options, other_groups);
         chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
+        chosen.tree.most_unknowns = integer(options, tree_unknowns);
+        chosen.tree.grain = option<double>(options, tree_grain.key);
         return std::make_unique<Seif>(setup, chosen);
       }};
 }

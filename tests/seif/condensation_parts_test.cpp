@@ -49,7 +49,7 @@ Eigen::MatrixXd unpacked(const Condensed& condensed) {
 
 void add_all(Front& front, const Eigen::MatrixXd& M, const std::vector<int>& slots) {
   for (std::size_t i = 0; i < slots.size(); ++i) {
-    front.mention(slots[i]);
+    front.mention(slots[i], 1);
     for (std::size_t j = 0; j <= i; ++j) {
       front.add(slots[i], slots[j],
                 M.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j)));
@@ -59,13 +59,12 @@ void add_all(Front& front, const Eigen::MatrixXd& M, const std::vector<int>& slo
 
 std::vector<int> boundary_of(const Condensed& condensed) {
   std::vector<int> slots;
-  for (const Condensed::Mention& m : condensed.boundary) slots.push_back(m.slot);
+  for (const Condensed::Member& m : condensed.boundary) slots.push_back(m.variable);
   return slots;
 }
 
 TEST(Front, LeavesTheSchurComplement) {
   Front front;
-  for (int slot = 0; slot < 9; ++slot) front.add_landmark();
   const Eigen::MatrixXd M = positive_definite(18, 1);
   front.begin();
   std::vector<int> slots(9);
@@ -80,7 +79,6 @@ TEST(Front, LeavesTheSchurComplement) {
 
 TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
   Front front;
-  for (int slot = 0; slot < 8; ++slot) front.add_landmark();
   const Eigen::MatrixXd A = positive_definite(10, 2);
   const Eigen::MatrixXd B = positive_definite(10, 3);
   const std::vector<int> of_a{0, 1, 2, 3, 4};
@@ -115,12 +113,72 @@ TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
 
 TEST(Front, RefusesWhatIsNotPositiveDefinite) {
   Front front;
-  front.add_landmark();
   front.begin();
-  front.mention(0);
+  front.mention(0, 1);
   front.add(0, 0, -Eigen::Matrix2d::Identity());
   Condensed out;
   EXPECT_FALSE(front.condense([](int, int) { return true; }, out));
+}
+
+/// Of 2 rows for each landmark: P, for a rigid motion of all of them about a centre.
+Eigen::MatrixXd rigid_motion(const std::vector<Eigen::Vector2d>& levers) {
+  Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(levers.size()), 3);
+  Eigen::Index row = 0;
+  for (const Eigen::Vector2d& lever : levers) {
+    P.middleRows<2>(row) << 1.0, 0.0, -lever.y(), 0.0, 1.0, lever.x();
+    row += 2;
+  }
+  return P;
+}
+
+// Four landmarks of which three move as one, two of these and then all three in turn.
+TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
+  const Eigen::MatrixXd M = positive_definite(8, 5);
+  const std::vector<Eigen::Vector2d> levers{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
+  const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; that of the smaller is the origin
+  Front front;
+  front.begin();
+  add_all(front, M, {0, 1, 2, 3});
+  Condensed landmarks, pair, all;
+  ASSERT_TRUE(front.condense([](int, int) { return false; }, landmarks));
+  front.begin();
+  front.add(landmarks);
+  front.tie(0, group_variable(10), levers[0]);
+  front.tie(1, group_variable(10), levers[1]);
+  ASSERT_TRUE(front.condense([](int, int) { return false; }, pair));
+  front.begin();
+  front.add(pair);
+  for (std::size_t i = 0; i < front.variables().size() && i < 4; ++i) {
+    const FrontVariable v = front.variables()[i].variable;
+    if (v == 2) front.tie(i, group_variable(11), levers[2] - centre);
+    if (v == group_variable(10)) front.tie(i, group_variable(11), -centre);
+  }
+  ASSERT_TRUE(front.condense([](int v, int) { return v == 3; }, all));
+
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(8, 5);
+  P.topLeftCorner(6, 3) = rigid_motion({levers[0] - centre, levers[1] - centre, levers[2] - centre});
+  P.bottomRightCorner<2, 2>().setIdentity();
+  const Eigen::MatrixXd tied = P.transpose() * M * P;
+  const Eigen::MatrixXd expected = tied.topLeftCorner<3, 3>() - tied.topRightCorner<3, 2>() *
+                                                                    tied.bottomRightCorner<2, 2>().inverse() *
+                                                                    tied.bottomLeftCorner<2, 3>();
+  ASSERT_EQ(all.b, 3);
+  Eigen::Matrix3d S;
+  S << all.S[0], all.S[1], all.S[2], all.S[1], all.S[3], all.S[4], all.S[2], all.S[4], all.S[5];
+  EXPECT_LT((S - expected).norm(), rounding * expected.norm());
+
+  const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
+  front.begin_residual(pair);
+  for (int slot = 0; slot < 4; ++slot) front.add_residual(slot, r.segment<2>(2 * slot));
+  front.condense_residual(pair);
+  front.begin_residual(all);
+  front.add_residual(pair, Eigen::Map<const Eigen::VectorXd>(pair.s.data(), pair.b));
+  front.condense_residual(all);
+  const Eigen::VectorXd r_tied = P.transpose() * r;
+  const Eigen::Vector3d s = r_tied.head<3>() - tied.topRightCorner<3, 2>() *
+                                                   tied.bottomRightCorner<2, 2>().inverse() *
+                                                   r_tied.tail<2>();
+  EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(all.s.data()) - s).norm(), rounding * s.norm());
 }
 
 /// A zone of eight landmarks that a front has left behind.
@@ -129,7 +187,6 @@ struct ZoneOfEight {
     Front front;
     std::vector<int> slots(8);
     std::iota(slots.begin(), slots.end(), 0);
-    for (int slot = 0; slot < 8; ++slot) front.add_landmark();
     front.begin();
     add_all(front, M, slots);
     Condensed out;
@@ -226,6 +283,24 @@ TEST(LeafTree, IsNoDeeperThanTheLogarithmOfALongCorridorAsks) {
   int deepest = 0;
   for (const int leaf : leaves) deepest = std::max(deepest, steps_to_hub(tree, leaf));
   EXPECT_LE(deepest, 24);  // twice log2(4096): both coordinates grow along it
+}
+
+TEST(LeafTree, AnInnerNodeStandsForARectangleThatLeavesOutsideOfItAreNotIn) {
+  LeafTree tree;
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> coordinate(-80.0, 80.0);
+  std::vector<int> leaves;
+  for (int k = 0; k < 200; ++k) {
+    const Eigen::Vector2d place(coordinate(random), coordinate(random));
+    leaves.push_back(tree.add_leaf(place));
+    tree.widen(leaves.back(), place);
+  }
+  for (int n = 0; n < tree.size(); ++n) {
+    if (tree.is_leaf(n) || tree.box(n).sizes().minCoeff() < 8.0) continue;  // [m] one cell holds many leaves
+    for (const int leaf : leaves) {
+      EXPECT_EQ(tree.is_within(leaf, n), tree.box(n).contains(tree.box(leaf))) << leaf << " in " << n;
+    }
+  }
 }
 
 TEST(LeafTree, HoldsAnyNumberOfLeavesAtOnePlace) {

@@ -198,46 +198,6 @@ TEST_F(AfterClosure, ARobotAtRestComesToTheExactMean) {
   EXPECT_LT(last, 0.01 * first);
 }
 
-// Groups that have heard nothing of the first round: then all that Omega holds at once.
-TEST(MultilevelMean, ThatTakesInAMapAsItStandsComesToTheExactMean) {
-  RingDrive drive(160, 3);
-  Mapper mapper(drive.setup().start);
-  const auto take_in_unheard = [&] {
-    mapper.state.begin_scan();
-    for (const Observation& z : drive.scan().observations) {
-      if (const auto slot = mapper.state.find(z.landmark)) {
-        if (mapper.state.position(*slot) < 0) mapper.state.activate(*slot);
-        mapper.state.mark_seen(*slot);
-      }
-    }
-    mapper.add_known(drive.scan());
-    ASSERT_TRUE(solve_mean(mapper.state));
-    mapper.add_new(drive.scan(), false);
-    mapper.sparsify(12, 16);
-  };
-  for (int k = 0; k < drive.steps_for_a_round() - 10; ++k) {
-    drive.advance();
-    motion_update(mapper.state, drive.odometry());
-    take_in_unheard();
-  }
-  mapper.mean.take_in(mapper.state);
-  for (int k = 0; k < 15; ++k) {  // the ring closes
-    drive.advance();
-    mapper.update(drive.odometry(), drive.scan());
-  }
-  const Odometry at_rest;
-  const double first = mapper.squared_error();
-  EXPECT_GT(first, 0.1);
-  double last = first;
-  for (int k = 0; k < 100; ++k) {
-    mapper.update(at_rest, {});
-    const double now = mapper.squared_error();
-    ASSERT_LE(now, last * (1 + rounding)) << "update " << k;
-    last = now;
-  }
-  EXPECT_LT(last, 0.2 * first);
-}
-
 // A level is added above groups that have moved by then.
 TEST_F(AfterClosure, TheMapMayGrowByALevel) {
   const Odometry at_rest;
