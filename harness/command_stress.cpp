@@ -69,7 +69,7 @@ void add_options(CLI::App& command, StressArguments& arguments) {
   StressPlan& plan = arguments.plan;
   command.add_option("--landmarks", plan.landmarks, "Numbers of landmarks, one world for each")
       ->delimiter(',')
-      ->check(CLI::Range(4, 10'000'000))
+      ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
   command
       .add_option("--estimators", arguments.estimators,
@@ -88,7 +88,10 @@ void add_options(CLI::App& command, StressArguments& arguments) {
       ->capture_default_str();
   command.add_option("--limit", arguments.limits,
                      "The most landmarks for an estimator: ekf=5000 (the default), eif=500 (the default)");
-  command.add_option("--patience", plan.patience, "Time of an estimator's updates in a warm start [s]")
+  command
+      .add_option("--slowest", plan.slowest_ms,
+                  "What an update may take in a warm start before its estimator is given up [ms]")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--seed", plan.world.seed, "Seed of everything that is random")->capture_default_str();
   command.add_option("--set", plan.overrides, "Set a value of the world files: path.to.key=value")

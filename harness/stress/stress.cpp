@@ -77,7 +77,7 @@ StressRow stress_row(const StressPlan& plan, const seif::Registry& registry, con
   const Clock::time_point warm_begin = Clock::now();
   const double length = length_of(world.drive.path);
   Progress progress(plan.quiet, 0.0, length / world.drive.speed);
-  WarmStart warm = warm_start(world, registry, {.length = length, .patience = plan.patience}, stop,
+  WarmStart warm = warm_start(world, registry, {.length = length, .slowest_ms = plan.slowest_ms}, stop,
                               [&](double t) { progress.show(t); });
   row.warm_s = seconds_since(warm_begin);
   row.warm_updates = warm.updates;

@@ -13,7 +13,7 @@ namespace harness {
 
 namespace {
 
-constexpr double lane = 8.0;          // [m] at the most
+constexpr double lane = 8.0;          // [m] between lanes
 constexpr double sensor_range = 6.0;  // [m] more than the half diagonal of a lane's square: nothing is missed
 constexpr double clear_of_path = 0.7;    // [m] from the middle of the robot
 constexpr double between_trees = 1.2;    // [m]
@@ -26,9 +26,17 @@ constexpr double ring_width = 6.0;   // [m] of the band that `density` counts in
 constexpr double ring_jitter = 0.5;  // [m]
 constexpr double sagitta = 0.05;     // [m] by which the polygon that is driven may leave its circle
 
-/// Half the side of the square that holds all landmarks. [m]
-double half_side(const StressWorldSpec& spec) {
-  return 0.5 * std::sqrt(static_cast<double>(spec.landmarks) / spec.density);
+/// Pairs of lanes in the rectangle that holds all landmarks, so that it is nearly a square.
+int pairs_of_lanes(const StressWorldSpec& spec) {
+  const double side = std::sqrt(static_cast<double>(spec.landmarks) / spec.density);
+  return std::max(1, static_cast<int>(std::lround(side / (2 * lane))));
+}
+
+/// Half the sides of the rectangle. Its width is a whole number of lanes: they are equally far apart in
+/// worlds of any size. [m]
+Eigen::Vector2d half_sides(const StressWorldSpec& spec) {
+  const double width = 2 * lane * pairs_of_lanes(spec);
+  return {0.5 * static_cast<double>(spec.landmarks) / spec.density / width, 0.5 * width};
 }
 
 double ring_radius(const StressWorldSpec& spec) {
@@ -46,15 +54,13 @@ std::vector<Eigen::Vector2d> circle(double radius) {
   return points;
 }
 
-/// An even number of lanes, the outer ones half a lane from the edge of the square: the last one ends on the
-/// side where the first begins.
-std::vector<Eigen::Vector2d> lanes(double half) {
-  const int pairs = std::max(1, static_cast<int>(std::ceil(half / lane)));
-  const double gap = half / pairs;
-  const Eigen::Vector2d corner = Eigen::Vector2d::Constant(half - 0.5 * gap);
-  std::vector<Eigen::Vector2d> corners = worlds::serpentine(-corner, corner, gap);
+/// An even number of lanes, which begin and end half a lane from the edge: the last one ends on the side
+/// where the first begins.
+std::vector<Eigen::Vector2d> lanes(const StressWorldSpec& spec) {
+  const Eigen::Vector2d corner = (half_sides(spec).array() - 0.5 * lane).max(1.0);
+  std::vector<Eigen::Vector2d> corners = worlds::serpentine(-corner, corner, lane);
   // Four corners for each pair of lanes: this one begins a lane on the side of the way back.
-  std::ranges::rotate(corners, corners.begin() + 4 * (pairs / 2));
+  std::ranges::rotate(corners, corners.begin() + 4 * (pairs_of_lanes(spec) / 2));
   return corners;
 }
 
@@ -68,12 +74,12 @@ std::string generators(const StressWorldSpec& spec) {
     return fmt::format(fmt::runtime(ring), inner, radius - ring_offset, ring_jitter, common) +
            fmt::format(fmt::runtime(ring), spec.landmarks - inner, radius + ring_offset, ring_jitter, common);
   }
-  const double half = half_side(spec);
+  const Eigen::Vector2d half = half_sides(spec);
   const std::string kind = spec.pattern == StressPattern::forest
                                ? fmt::format("type: poisson_disk, distance_m: {}", between_trees)
                                : "type: uniform";
   return fmt::format("    - {{{}, count: {}, region: {{min_m: [{}, {}], max_m: [{}, {}]}}, {}}}\n", kind,
-                     spec.landmarks, -half, -half, half, half, common);
+                     spec.landmarks, -half.x(), -half.y(), half.x(), half.y(), common);
 }
 
 std::string points(const std::vector<Eigen::Vector2d>& corners) {
@@ -87,14 +93,15 @@ std::string points(const std::vector<Eigen::Vector2d>& corners) {
 }  // namespace
 
 std::vector<Eigen::Vector2d> stress_round(const StressWorldSpec& spec) {
-  return spec.pattern == StressPattern::ring ? circle(ring_radius(spec)) : lanes(half_side(spec));
+  return spec.pattern == StressPattern::ring ? circle(ring_radius(spec)) : lanes(spec);
 }
 
 std::string stress_world(const StressWorldSpec& spec) {
   const std::vector<Eigen::Vector2d> round = stress_round(spec);
   const Eigen::Vector2d way = round[1] - round[0];
-  const double half =
-      spec.pattern == StressPattern::ring ? ring_radius(spec) + ring_offset + ring_jitter : half_side(spec);
+  const double reach = ring_radius(spec) + ring_offset + ring_jitter;
+  const Eigen::Vector2d half =
+      spec.pattern == StressPattern::ring ? Eigen::Vector2d(reach, reach) : half_sides(spec);
   std::string estimators;
   for (const std::string& name : spec.estimators) estimators += fmt::format("  {}: {{}}\n", name);
   return fmt::format(
@@ -104,7 +111,7 @@ std::string stress_world(const StressWorldSpec& spec) {
       "drive: {{mode: loop, speed_m_s: 1.0, waypoints_m: [{}]}}\n"
       "sensors: {{landmark_sensor: {{max_range_m: {}}}}}\n"
       "estimators:{}\n{}",
-      spec.landmarks, spec.seed, 2 * (half + margin), 2 * (half + margin), round[0].x(), round[0].y(),
+      spec.landmarks, spec.seed, 2 * (half.x() + margin), 2 * (half.y() + margin), round[0].x(), round[0].y(),
       std::atan2(way.y(), way.x()) * 180 / std::numbers::pi, generators(spec), points(round), sensor_range,
       estimators.empty() ? " {}" : "", estimators);
 }

@@ -11,7 +11,7 @@
 namespace harness {
 
 enum class StressPattern {
-  serpentine,  // anywhere in a square, which is driven in lanes, round and round
+  serpentine,  // anywhere in a rectangle, which is driven in lanes, round and round
   ring,        // on both sides of a circle, which is driven round and round
   forest,      // as serpentine with a least distance between trees; the measured part explores
 };
@@ -27,7 +27,7 @@ struct StressWorldSpec {
 };
 
 /// Corners of the closed path that brings every landmark into view once. Lanes begin in the middle of the
-/// square, so that a second round begins in the midst of the map. [m]
+/// rectangle, so that a second round begins in the midst of the map. [m]
 std::vector<Eigen::Vector2d> stress_round(const StressWorldSpec& spec);
 
 /// The world file.

@@ -29,7 +29,7 @@ struct WarmStart {
 
 struct WarmStartLimits {
   double length = 0.0;      // [m] of the round
-  double patience = 120.0;  // [s] of updates, for each estimator
+  double slowest_ms = 0.0;  // [ms] an update that takes longer, on the average of the last hundred or so
 };
 
 /// Drives once round. Ends early if `stop` is set.

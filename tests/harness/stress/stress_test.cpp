@@ -75,10 +75,10 @@ TEST(Stress, SkipsEstimatorsBeyondTheirLimitAndSaysSo) {
 TEST(Stress, GivesUpOnEstimatorsThatTakeTooLongInThisAndInLargerWorlds) {
   const TemporaryFolder folder;
   StressPlan plan = small_plan(folder);
-  plan.patience = 1e-4;
+  plan.slowest_ms = 1e-4;
   const StressResult result = stress(plan, test::test_registry());
   for (const StressEstimator& estimator : result.rows[0].estimators)
-    EXPECT_TRUE(estimator.skipped.starts_with("given up after")) << estimator.skipped;
+    EXPECT_TRUE(estimator.skipped.starts_with("given up at ")) << estimator.skipped;
   for (const StressEstimator& estimator : result.rows[1].estimators)
     EXPECT_EQ(estimator.skipped, "skipped above 40");
   EXPECT_GT(result.rows[1].step_us->p50, 0.0) << "the rest is measured all the same";
