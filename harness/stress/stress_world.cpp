@@ -16,7 +16,6 @@ namespace {
 constexpr double lane = 8.0;          // [m] between lanes
 constexpr double sensor_range = 6.0;  // [m] more than the half diagonal of a lane's square: nothing is missed
 constexpr double clear_of_path = 0.7;    // [m] from the middle of the robot
-constexpr double between_trees = 1.2;    // [m]
 constexpr double landmark_radius = 0.1;  // [m]
 constexpr double margin = 10.0;          // [m] of ground around everything
 
@@ -75,11 +74,12 @@ std::string generators(const StressWorldSpec& spec) {
            fmt::format(fmt::runtime(ring), spec.landmarks - inner, radius + ring_offset, ring_jitter, common);
   }
   const Eigen::Vector2d half = half_sides(spec);
-  const std::string kind = spec.pattern == StressPattern::forest
-                               ? fmt::format("type: poisson_disk, distance_m: {}", between_trees)
-                               : "type: uniform";
-  return fmt::format("    - {{{}, count: {}, region: {{min_m: [{}, {}], max_m: [{}, {}]}}, {}}}\n", kind,
-                     spec.landmarks, -half.x(), -half.y(), half.x(), half.y(), common);
+  // Evenly spread: otherwise chance makes the way through one world denser than that through another.
+  const double distance = 0.5 / std::sqrt(spec.density);
+  return fmt::format(
+      "    - {{type: poisson_disk, distance_m: {}, count: {}, region: {{min_m: [{}, {}], max_m: [{}, {}]}}, "
+      "{}}}\n",
+      distance, spec.landmarks, -half.x(), -half.y(), half.x(), half.y(), common);
 }
 
 std::string points(const std::vector<Eigen::Vector2d>& corners) {

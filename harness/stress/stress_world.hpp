@@ -13,7 +13,7 @@ namespace harness {
 enum class StressPattern {
   serpentine,  // anywhere in a rectangle, which is driven in lanes, round and round
   ring,        // on both sides of a circle, which is driven round and round
-  forest,      // as serpentine with a least distance between trees; the measured part explores
+  forest,      // the same, but the measured part explores
 };
 
 inline constexpr std::array<std::string_view, 3> stress_pattern_names = {"serpentine", "ring", "forest"};

@@ -22,7 +22,7 @@ Work work_with(std::int64_t landmarks) {
   StressPlan plan;
   plan.world.landmarks = landmarks;
   plan.world.estimators = {"seif"};
-  plan.updates = 1'500;
+  plan.updates = 3'000;
   plan.most_scored = 0;
   plan.folder = folder.path();
   plan.quiet = true;
