@@ -93,9 +93,10 @@ LiveLoop::LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener
       listeners_(std::move(listeners)),
       log_(log),
       scoring_(scoring),
-      times_(believers.estimators.size()),
-      blocks_touched_(believers.estimators.size()) {
+      times_(believers.estimators.size()) {
   counts_.t = log.start_t;
+  for (const LiveEstimator& estimator : believers.estimators)
+    blocks_touched_.push_back(estimator.filter->counts().blocks_touched);
   stage_done_ = [this](seif::Stage done) {
     const Clock::time_point now = Clock::now();
     add(stage(*running_, done), microseconds(now - stage_begin_));

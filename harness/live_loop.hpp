@@ -70,6 +70,9 @@ class LiveLoop {
   /// Scores the consistency at the end and tells of the maps.
   void finish();
 
+  /// Scores the consistency now. At other times than the end, for those who do not want finish().
+  void score_consistency();
+
   const LoopCounts& counts() const { return counts_; }
 
  private:
@@ -81,7 +84,6 @@ class LiveLoop {
   void motion_update(std::size_t index, const seif::Odometry& odometry);
   void measurement_update(std::size_t index, const ScanEvent& event);
   const seif::Scan& scaled(const seif::Scan& scan, double sd_factor);
-  void score_consistency();
   ConsistencyRecord consistency_of(const LiveEstimator& estimator) const;
   const TrueLandmark* true_landmark(seif::LandmarkId id) const;
   void tell_map(std::size_t index);

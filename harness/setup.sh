@@ -27,6 +27,7 @@ packages=(
   "fonts-roboto-unhinted the letters themselves"
   "libpng-dev            writes and reads images"
   "ffmpeg                encodes films"
+  "gnuplot-nox           draws times against the number of landmarks"
 )
 
 say() { printf 'set-up: %s\n' "$*" >&2; }

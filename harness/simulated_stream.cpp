@@ -80,8 +80,12 @@ void make_symmetric(Matrix& covariance) {
 }  // namespace
 
 SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose)
+    : SimulatedStream(world, std::move(steering_pose), sim::make_simulator(world)) {}
+
+SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
+                                 std::unique_ptr<sim::Simulator> simulator)
     : world_(world),
-      simulator_(sim::make_simulator(world)),
+      simulator_(std::move(simulator)),
       steering_pose_(std::move(steering_pose)),
       encoders_(make_encoders(world)),
       landmark_sensor_(make_landmark_sensor(world)),

@@ -26,6 +26,9 @@ class SimulatedStream final : public Stream {
  public:
   /// Throws std::invalid_argument if a rate is not from 1 Hz to the physics' step rate.
   SimulatedStream(const worlds::World& world, SteeringPose steering_pose);
+  /// With a simulator of this world that somebody else has made.
+  SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
+                  std::unique_ptr<sim::Simulator> simulator);
   SimulatedStream(const SimulatedStream&) = delete;
   SimulatedStream& operator=(const SimulatedStream&) = delete;
 

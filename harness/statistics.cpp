@@ -10,9 +10,9 @@ namespace harness {
 
 namespace {
 
-/// The number of standard deviations that 95 % of a mean's distribution lie within, for n >= 2 samples.
-double student_quantile(std::size_t n) {
-  return boost::math::quantile(boost::math::students_t(static_cast<double>(n - 1)), 0.975);
+/// The number of standard errors that 95 % of Student's distribution lie within.
+double student_quantile(std::size_t degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees_of_freedom)), 0.975);
 }
 
 double mean(std::span<const double> sample) {
@@ -35,7 +35,7 @@ std::optional<Estimate> mean_of(std::span<const double> sample) {
   if (sample.empty()) return std::nullopt;
   Estimate estimate{mean(sample), std::nullopt};
   if (sample.size() < 2) return estimate;
-  const double half = student_quantile(sample.size()) * std::sqrt(covariance_of_means(sample, sample));
+  const double half = student_quantile(sample.size() - 1) * std::sqrt(covariance_of_means(sample, sample));
   estimate.interval = {estimate.value - half, estimate.value + half};
   return estimate;
 }
@@ -51,7 +51,7 @@ std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
   if (x == 0.0) return std::nullopt;
   Estimate estimate{y / x, std::nullopt};
   if (numerators.size() < 2) return estimate;
-  const double t = student_quantile(numerators.size());
+  const double t = student_quantile(numerators.size() - 1);
   const double a = x * x - t * t * covariance_of_means(denominators, denominators);
   const double b = x * y - t * t * covariance_of_means(denominators, numerators);
   const double c = y * y - t * t * covariance_of_means(numerators, numerators);
@@ -59,6 +59,31 @@ std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
   const double root = std::sqrt(std::max(0.0, b * b - a * c));  // rounding may bring it below zero
   estimate.interval = {(b - root) / a, (b + root) / a};
   return estimate;
+}
+
+std::optional<Estimate> slope_of(std::span<const double> x, std::span<const double> y) {
+  assert(x.size() == y.size());
+  const std::size_t n = x.size();
+  if (n < 2) return std::nullopt;
+  const double mean_x = mean(x);
+  const double mean_y = mean(y);
+  double S_xx = 0.0;
+  double S_xy = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    S_xx += (x[i] - mean_x) * (x[i] - mean_x);
+    S_xy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  if (S_xx == 0.0) return std::nullopt;
+  Estimate slope{S_xy / S_xx, std::nullopt};
+  if (n == 2) return slope;
+  double residual = 0.0;  // sum of squares
+  for (std::size_t i = 0; i < n; ++i) {
+    const double r = y[i] - mean_y - slope.value * (x[i] - mean_x);
+    residual += r * r;
+  }
+  const double half = student_quantile(n - 2) * std::sqrt(residual / static_cast<double>(n - 2) / S_xx);
+  slope.interval = {slope.value - half, slope.value + half};
+  return slope;
 }
 
 std::optional<double> median_of(std::vector<double> sample) {

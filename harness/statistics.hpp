@@ -28,6 +28,10 @@ std::optional<Estimate> mean_of(std::span<const double> sample);
 std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
                                        std::span<const double> denominators);
 
+/// The slope of the least-squares line through the points (x, y), with Student's interval; without one for
+/// two points. Nothing for fewer, or if all x are equal. The spans are of equal length.
+std::optional<Estimate> slope_of(std::span<const double> x, std::span<const double> y);
+
 /// The middle value, or the mean of the two in the middle. Nothing without values.
 std::optional<double> median_of(std::vector<double> sample);
 

@@ -66,7 +66,8 @@ std::string describe_node(const Node& node) {
       break;
   }
   constexpr std::size_t longest = 40;
-  const std::string shown = node.text.size() > longest ? node.text.substr(0, longest) + "..." : node.text;
+  std::string shown = node.text.substr(0, longest);
+  if (shown.size() < node.text.size()) shown += "...";
   return node.quoted ? fmt::format("the quoted text \"{}\"", shown) : fmt::format("'{}'", shown);
 }
 

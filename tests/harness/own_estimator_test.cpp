@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fixtures.hpp"
@@ -119,7 +120,7 @@ TEST(OwnEstimator, IsUsedByAWorldFileUnderItsNameAndScored) {
 TEST(OwnEstimator, HasItsOptionsChecked) {
   const TemporaryFolder folder;
   std::string text = world_file;
-  text.replace(text.find("0.1"), 3, "-1");
+  text.replace(text.find("0.1"), 3, std::string_view("-1"));
   const worlds::LoadResult loaded = load(folder, text);
   EXPECT_FALSE(loaded.world);
   ASSERT_EQ(loaded.problems.size(), 1U);

@@ -47,6 +47,22 @@ TEST(RatioOfMeans, IsUnboundedWhereTheDenominatorMayBeZero) {
   EXPECT_FALSE(ratio_of_means({}, {}));
 }
 
+TEST(SlopeOf, HasStudentsInterval) {
+  const Estimate slope = slope_of(Sample{0, 1, 2, 3}, Sample{1, 2, 2, 4}).value();
+  // S_xx = 5, S_xy = 4.5; residuals 0.1, 0.2, -0.7, 0.4 give 0.7; t with two degrees of freedom is 4.302653:
+  // t sqrt(0.7 / 2 / 5) = 1.138375.
+  EXPECT_DOUBLE_EQ(slope.value, 0.9);
+  EXPECT_NEAR(slope.interval->low, 0.9 - 1.138375, 1e-6);
+  EXPECT_NEAR(slope.interval->high, 0.9 + 1.138375, 1e-6);
+}
+
+TEST(SlopeOf, HasNoIntervalForTwoPointsAndNothingWithoutALine) {
+  EXPECT_EQ(slope_of(Sample{1, 3}, Sample{2, 8})->value, 3.0);
+  EXPECT_FALSE(slope_of(Sample{1, 3}, Sample{2, 8})->interval);
+  EXPECT_FALSE(slope_of(Sample{1, 1}, Sample{2, 8}));
+  EXPECT_FALSE(slope_of(Sample{1}, Sample{2}));
+}
+
 bool holds(const std::optional<Estimate>& estimate, double truth) {
   return estimate && estimate->interval && estimate->interval->low <= truth &&
          truth <= estimate->interval->high;

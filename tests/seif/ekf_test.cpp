@@ -70,7 +70,7 @@ TEST(Ekf, EqualsTheSeifWithoutSparsificationAndWithExactMean) {
       }
     }
     ASSERT_EQ(seif.active_count(), seif.landmark_count());
-    const Eigen::MatrixXd Sigma = oracle::symmetric(seif.full_Omega()).inverse();
+    const Eigen::MatrixXd Sigma = oracle::inverse(oracle::symmetric(seif.full_Omega()));
     EXPECT_LT((ekf.mu() - seif.full_mu()).norm(), 1e-6);
     EXPECT_LT((ekf.Sigma() - Sigma).norm(), 1e-6 * Sigma.norm());
   }
@@ -101,7 +101,7 @@ TEST(Ekf, MatchesTheTextbookUpdate) {
     Q.block<2, 2>(2 * i, 2 * i) = scan.observations.back().covariance;
     v.segment<2>(2 * i) = innovation(scan.observations.back(), predicted.z);
   }
-  const Eigen::MatrixXd K = Sigma * C.transpose() * (C * Sigma * C.transpose() + Q).inverse();
+  const Eigen::MatrixXd K = Sigma * C.transpose() * oracle::inverse(C * Sigma * C.transpose() + Q);
   const Eigen::MatrixXd I_KC = Eigen::MatrixXd::Identity(mu.size(), mu.size()) - K * C;
   ekf.measurement_update(scan, ignore);
   EXPECT_LT((ekf.mu() - (mu + K * v)).norm(), 1e-10);

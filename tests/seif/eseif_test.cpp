@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "dense_oracle.hpp"
 #include "ring_drive.hpp"
 #include "seif/eif.hpp"
@@ -50,8 +52,8 @@ TEST(Eseif, NeverClaimsToKnowMoreThanTheDenseFilter) {
     drive_dense.step(dense);
   }
   ASSERT_GT(sparse.counts().relocations, 0);
-  const Eigen::MatrixXd Sigma_sparse = oracle::symmetric(sparse.state().full_Omega()).inverse();
-  const Eigen::MatrixXd Sigma_dense = dense.Omega().inverse();
+  const Eigen::MatrixXd Sigma_sparse = oracle::inverse(oracle::symmetric(sparse.state().full_Omega()));
+  const Eigen::MatrixXd Sigma_dense = oracle::inverse(dense.Omega());
   // The smallest ratio of the two variances over all directions: Sigma_sparse v = lambda Sigma_dense v.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ratio(Sigma_sparse, Sigma_dense);
   EXPECT_GT(ratio.eigenvalues().minCoeff(), 0.95);

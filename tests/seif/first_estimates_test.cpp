@@ -99,7 +99,7 @@ struct DenseFirstEstimates {
     F(1, 2) = to(0) - at(0);
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(n, n);
     noise.topLeftCorner<3, 3>() = predicted.noise_factor * predicted.noise_factor.transpose();
-    Omega = (F * Omega.inverse() * F.transpose() + noise).inverse();
+    Omega = oracle::inverse(F * oracle::inverse(Omega) * F.transpose() + noise);
     at.head<3>() = to;
   }
 
@@ -145,7 +145,7 @@ struct DenseFirstEstimates {
       r += C * z.covariance.inverse() * v;
       ++seen[static_cast<std::size_t>(slot)];
     }
-    mu += Omega.ldlt().solve(r);
+    mu += oracle::solve(Omega, r);
     mu(2) = wrap_angle(mu(2));
     for (const Observation& z : unknown) add_new(z);
     for (std::size_t slot = 0; slot < ids.size(); ++slot) {
@@ -234,7 +234,7 @@ double gained(const InformationState& state) {
 }
 
 double heading_variance(const InformationState& state) {
-  return oracle::symmetric(state.full_Omega()).inverse()(2, 2);
+  return oracle::inverse(oracle::symmetric(state.full_Omega()))(2, 2);
 }
 
 // Nothing observes where in the world the map lies, nor how it is turned. Motion noise takes away of what the

@@ -84,8 +84,8 @@ DenseBelief lemma_2(const DenseBelief& belief, const Eigen::VectorXd& added, con
 DenseBelief by_covariance(const DenseBelief& belief, const Eigen::VectorXd& added,
                           const Eigen::Matrix3d& noise) {
   const Eigen::MatrixXd S = S_x(belief);
-  const Eigen::MatrixXd Sigma = belief.H.inverse();
-  const Eigen::MatrixXd H_bar = (Sigma + S * noise * S.transpose()).inverse();
+  const Eigen::MatrixXd Sigma = oracle::inverse(belief.H);
+  const Eigen::MatrixXd H_bar = oracle::inverse(Sigma + S * noise * S.transpose());
   return {.H = H_bar, .b = H_bar * (Sigma * belief.b + added), .mu = belief.mu + added};
 }
 

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "harness/commands.hpp"
+#include "harness/csv_reader.hpp"
+#include "harness/csv_writer.hpp"
+#include "harness/run_folder.hpp"
+#include "harness/stress/stress.hpp"
+#include "harness/stress/stress_plot.hpp"
+#include "harness/stress/stress_report.hpp"
+
+namespace harness {
+
+namespace {
+
+struct StressArguments {
+  StressPlan plan;
+  std::string pattern = "serpentine";
+  std::vector<std::string> estimators = {"seif", "ekf"};
+  std::vector<std::string> limits;  // name=landmarks
+  std::string out;                  // empty: a new folder in runs/
+  bool json = false;
+};
+
+void read_limits(StressArguments& arguments) {
+  for (const std::string& limit : arguments.limits) {
+    const std::size_t equals = limit.find('=');
+    std::int64_t landmarks = 0;
+    try {
+      landmarks = std::stoll(limit.substr(equals + 1));
+    } catch (const std::exception&) {
+      landmarks = -1;
+    }
+    if (equals == std::string::npos || equals == 0 || landmarks < 0)
+      throw BadInput(fmt::format("--limit: '{}' is not like ekf=2000", limit));
+    arguments.plan.most_landmarks[limit.substr(0, equals)] = landmarks;
+  }
+}
+
+int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
+  StressPlan& plan = arguments.plan;
+  read_limits(arguments);
+  const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));
+  plan.world.pattern = static_cast<StressPattern>(pattern - stress_pattern_names.begin());
+  plan.world.estimators = arguments.estimators;
+  plan.quiet = plan.quiet || arguments.json;
+  std::ranges::sort(plan.landmarks);
+  plan.landmarks.erase(std::unique(plan.landmarks.begin(), plan.landmarks.end()), plan.landmarks.end());
+  plan.folder =
+      arguments.out.empty() ? create_run_folder("runs", "stress") : create_empty_folder(arguments.out);
+
+  const StressResult result = stress(plan, registry);
+  const std::string json = to_json(plan, result);
+  write_whole_file(plan.folder / "stress.json", json);
+  const std::string complaint = draw_scaling(scaling_of(result.rows), plan.folder);
+  if (!complaint.empty()) fmt::print(stderr, "{}\n", complaint);
+  const std::string tables = stress_tables(plan, result);
+  write_whole_file(plan.folder / "stress.txt", tables);
+  const std::string text =
+      arguments.json ? json : fmt::format("{}\nWritten to {}\n", tables, plan.folder.string());
+  return print_all(text, result.interrupted ? 130 : 0);
+}
+
+void add_options(CLI::App& command, StressArguments& arguments) {
+  StressPlan& plan = arguments.plan;
+  command.add_option("--landmarks", plan.landmarks, "Numbers of landmarks, one world for each")
+      ->delimiter(',')
+      ->check(CLI::Range(100, 10'000'000))
+      ->capture_default_str();
+  command
+      .add_option("--estimators", arguments.estimators,
+                  "Types of estimators; options by --set estimators.NAME")
+      ->delimiter(',')
+      ->capture_default_str();
+  command.add_option("--density", plan.world.density, "Landmarks for each square metre")
+      ->check(CLI::Range(0.01, 0.3))
+      ->capture_default_str();
+  command.add_option("--updates", plan.updates, "Updates that are measured, five in a simulated second")
+      ->check(CLI::Range(10, 10'000'000))
+      ->capture_default_str();
+  command.add_option("--pattern", arguments.pattern, "serpentine, ring or forest")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(stress_pattern_names.begin(), stress_pattern_names.end())))
+      ->capture_default_str();
+  command.add_option("--limit", arguments.limits,
+                     "The most landmarks for an estimator: ekf=5000 (the default), eif=500 (the default)");
+  command
+      .add_option("--slowest", plan.slowest_ms,
+                  "What an update may take in a warm start before its estimator is given up [ms]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--seed", plan.world.seed, "Seed of everything that is random")->capture_default_str();
+  command.add_option("--set", plan.overrides, "Set a value of the world files: path.to.key=value")
+      ->allow_extra_args(false);
+  command.add_option("--out", arguments.out, "Folder to write to; by default a new one, runs/stress");
+  command.add_flag("--json", arguments.json, "Print stress.json instead of the tables");
+  command.add_flag("--quiet", plan.quiet, "Show no progress");
+}
+
+}  // namespace
+
+void add_stress(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand(
+      "stress", "Measure what everything costs, live in Bullet, as the map grows to 100,000 landmarks");
+  command->footer(
+      "Examples:\n"
+      "  seifbed stress\n"
+      "  seifbed stress --landmarks 1000,100000 --updates 5000 --estimators seif\n"
+      "  seifbed stress --pattern forest --set estimators.seif.theta_x=16\n"
+      "  seifbed stress --landmarks 100,1000 --json | jq .slopes\n"
+      "Each filter first maps its world with the engine without contacts; then the same filter goes on live\n"
+      "in Bullet, and that is measured. docs/stress.md describes the tables.");
+  auto arguments = std::make_shared<StressArguments>();
+  add_options(*command, *arguments);
+  command->callback([=, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] { return stress_worlds(*arguments, registry); });
+  });
+}
+
+}  // namespace harness

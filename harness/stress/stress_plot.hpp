@@ -1,0 +1,15 @@
+// The time of each stage against the number of landmarks, as a picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/stress/scaling.hpp"
+
+namespace harness {
+
+/// Draws time.png and time.svg in this folder, with gnuplot. What went wrong, or nothing. There is nothing to
+/// draw for a single number of landmarks.
+std::string draw_scaling(const std::vector<StageScaling>& stages, const std::filesystem::path& folder);
+
+}  // namespace harness

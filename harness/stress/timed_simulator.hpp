@@ -1,0 +1,40 @@
+// A simulator with a clock beside it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/simulator.hpp"
+
+namespace harness {
+
+/// Does what another one does, and notes how long each physics step took.
+class TimedSimulator final : public sim::Simulator {
+ public:
+  /// `room` is empty; with a capacity for all steps, noting them allocates nothing.
+  explicit TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double> room = {});
+
+  void step(const sim::Command& command) override;
+
+  sim::RobotState robot() const override { return simulator_->robot(); }
+  void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override {
+    simulator_->landmarks_within(p_world, radius, out);
+  }
+  bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const override {
+    return simulator_->line_of_sight(p_world_sensor, landmark);
+  }
+  bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
+                     double radius) const override {
+    return simulator_->path_is_clear(p_world_from, p_world_to, radius);
+  }
+  sim::SimulatorCounts counts() const override { return simulator_->counts(); }
+
+  /// Of each step so far. [us]
+  const std::vector<double>& step_us() const { return step_us_; }
+
+ private:
+  std::unique_ptr<sim::Simulator> simulator_;
+  std::vector<double> step_us_;
+};
+
+}  // namespace harness

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/command_call.hpp"
+#include "harness/fixtures.hpp"
+
+namespace harness {
+namespace {
+
+using test::call;
+using test::Called;
+
+TEST(StressCommand, PrintsJsonAndLeavesTablesAndPlots) {
+  const TemporaryFolder folder;
+  const Called called =
+      call(folder, "stress --landmarks 200,100,100 --estimators seif --updates 10 --json --out out");
+  ASSERT_EQ(called.exit_code, 0) << called.errors;
+  const nlohmann::json json = nlohmann::json::parse(called.output);
+  ASSERT_EQ(json["rows"].size(), 2U);
+  EXPECT_EQ(json["rows"][0]["landmarks"], 100);
+  EXPECT_EQ(called.output, test::read_file(folder / "out/stress.json"));
+  EXPECT_NE(test::read_file(folder / "out/stress.txt").find("warm start"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/time.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/time.svg"));
+}
+
+TEST(StressCommand, TakesOptionsOfEstimators) {
+  const TemporaryFolder folder;
+  const Called called = call(folder,
+                             "stress --landmarks 100 --estimators seif --updates 10 --json --pattern ring "
+                             "--set 'estimators.tree={type: seif, mean_recovery: tree}'");
+  ASSERT_EQ(called.exit_code, 0) << called.errors;
+  const nlohmann::json row = nlohmann::json::parse(called.output)["rows"][0];
+  EXPECT_EQ(row["estimators"]["seif"]["landmarks"], 100);
+  EXPECT_EQ(row["estimators"]["tree"]["landmarks"], 100);
+}
+
+TEST(StressCommand, RefusesWhatItCannotDo) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf").exit_code, 2);
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf=many").exit_code, 2);
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --pattern spiral").exit_code, 2);
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators nobody").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace harness

@@ -1,0 +1,107 @@
+#include "harness/stress/stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "harness/csv_reader.hpp"
+#include "harness/fixtures.hpp"
+#include "harness/stress/stress_report.hpp"
+
+namespace harness {
+namespace {
+
+StressPlan small_plan(const TemporaryFolder& folder) {
+  StressPlan plan;
+  plan.world.estimators = {"seif", "ekf"};
+  plan.landmarks = {40, 80};
+  plan.updates = 20;
+  plan.folder = folder.path();
+  plan.quiet = true;
+  return plan;
+}
+
+TEST(Stress, MeasuresEveryStageOfFiltersThatHoldTheWholeMap) {
+  const TemporaryFolder folder;
+  const StressResult result = stress(small_plan(folder), test::test_registry());
+  ASSERT_EQ(result.rows.size(), 2U);
+  for (const StressRow& row : result.rows) {
+    EXPECT_EQ(row.updates, 20);
+    EXPECT_EQ(row.counts.steps, 4 * 240);
+    EXPECT_EQ(row.landmarks_seen, row.landmarks);
+    EXPECT_GT(row.counts.rays, row.updates);
+    EXPECT_GT(row.second_us->p50, 240 * row.step_us->p50) << "a second has 240 steps and more";
+    EXPECT_GT(row.scan_us->p50, 0.0);
+    EXPECT_GE(row.rest_us->p50, 0.0);
+    EXPECT_GT(row.realtime_factor, 0.0);
+    ASSERT_EQ(row.estimators.size(), 2U);
+    for (const StressEstimator& estimator : row.estimators) {
+      EXPECT_EQ(estimator.skipped, "");
+      EXPECT_EQ(estimator.landmarks, row.landmarks);
+      EXPECT_GT(estimator.update_us->p50, 0.0);
+      EXPECT_GT(estimator.blocks->p50, 0.0);
+      EXPECT_LT(estimator.map_rmse.value(), 0.5);
+      EXPECT_GT(estimator.nees_pose.value(), 0.0);
+      EXPECT_GT(estimator.nees_landmark.value(), 0.0);
+    }
+  }
+}
+
+TEST(Stress, RecordsWhatItMeasures) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.landmarks = {40};
+  stress(plan, test::test_registry());
+  for (const char* file :
+       {"40/world.yaml", "40/seif/observations.csv", "40/seif/seif_times.csv", "40/ekf/ekf_steps.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+}
+
+TEST(Stress, SkipsEstimatorsBeyondTheirLimitAndSaysSo) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.most_landmarks = {{"ekf", 40}};
+  const StressResult result = stress(plan, test::test_registry());
+  EXPECT_EQ(result.rows[0].estimators[1].skipped, "");
+  const auto& estimators = result.rows[1].estimators;
+  const auto ekf = std::ranges::find(estimators, "ekf", &StressEstimator::name);
+  ASSERT_NE(ekf, estimators.end());
+  EXPECT_EQ(ekf->skipped, "skipped above 40");
+  EXPECT_FALSE(ekf->update_us);
+  EXPECT_NE(stress_tables(plan, result).find("80 landmarks, ekf: skipped above 40"), std::string::npos);
+}
+
+TEST(Stress, GivesUpOnEstimatorsThatTakeTooLongInThisAndInLargerWorlds) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.slowest_ms = 1e-4;
+  const StressResult result = stress(plan, test::test_registry());
+  for (const StressEstimator& estimator : result.rows[0].estimators)
+    EXPECT_TRUE(estimator.skipped.starts_with("given up at ")) << estimator.skipped;
+  for (const StressEstimator& estimator : result.rows[1].estimators)
+    EXPECT_EQ(estimator.skipped, "skipped above 40");
+  EXPECT_GT(result.rows[1].step_us->p50, 0.0) << "the rest is measured all the same";
+}
+
+TEST(Stress, TellsTheSameAsJson) {
+  const TemporaryFolder folder;
+  const StressPlan plan = small_plan(folder);
+  const StressResult result = stress(plan, test::test_registry());
+  const nlohmann::json json = nlohmann::json::parse(to_json(plan, result));
+  EXPECT_EQ(json["rows"][1]["landmarks"], 80);
+  EXPECT_EQ(json["rows"][1]["physics_step_us"]["p99"], result.rows[1].step_us->p99);
+  EXPECT_EQ(json["rows"][1]["estimators"]["seif"]["landmarks"], 80);
+  EXPECT_TRUE(json["slopes"]["simulated second"]["value"].is_number());
+  EXPECT_TRUE(json["slopes"]["seif"]["low"].is_null()) << "two points leave no room for an interval";
+}
+
+TEST(Stress, RefusesAWorldThatCannotBe) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.overrides = {"sensors.landmark_sensor.rate_hz=7"};
+  EXPECT_THROW(stress(plan, test::test_registry()), BadInput);
+}
+
+}  // namespace
+}  // namespace harness
