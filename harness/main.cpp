@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   harness::add_replay(line);
   harness::add_film(line);
   harness::add_compare(line);
+  harness::add_sweep(line);
+  harness::add_merge(line);
   harness::add_validate(line);
   harness::add_schema(line);
   harness::add_estimators(line);
