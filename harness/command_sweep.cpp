@@ -5,7 +5,7 @@
 
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
-#include "harness/sweep/cells.hpp"
+#include "harness/sweep/slurm.hpp"
 #include "harness/sweep/status.hpp"
 #include "harness/sweep/sweep.hpp"
 
@@ -20,6 +20,8 @@ struct SweepArguments {
   std::string resume;  // the folder of a sweep that was begun; empty: begin with WORLD
   std::string status;  // the same, to tell how far it is
   std::string shard = "1/1";
+  bool slurm = false;
+  SlurmChoices slurm_choices;
   int jobs = 1;
   bool json = false;
   bool quiet = false;
@@ -70,19 +72,39 @@ std::optional<SweepFolder> find_sweep(const SweepArguments& arguments, const sei
   return begun.folder;
 }
 
+int tell_status(const SweepFolder& sweep) {
+  const SweepStatus status = status_of(sweep);
+  std::string text = to_text(sweep, status);
+  if (is_slurm_sweep(sweep) && status.open + status.failed.size() > 0)
+    text += to_text(slurm_queue(sweep)) + '\n';
+  return print_all(text, status.failed.empty() ? 0 : 1);
+}
+
+/// Runs what is to be run here. The exit code.
+int run_here(const SweepFolder& sweep, const Shard& shard, const SweepArguments& arguments,
+             const seif::Registry& registry) {
+  const bool quiet = arguments.quiet || arguments.json;
+  if (!run_cells(sweep, shard, arguments.jobs, quiet, registry)) return 130;
+  const SweepStatus status = status_of(sweep);
+  if (status.open > 0) return pause(sweep, status, shard, quiet);
+  return finish(sweep, arguments.json, arguments.quiet);
+}
+
+int run_on_slurm(const SweepFolder& sweep, const SweepArguments& arguments) {
+  SlurmChoices choices = arguments.slurm_choices;
+  choices.jobs = arguments.jobs;
+  const SweepStatus status = status_of(sweep);
+  if (status.open + status.failed.size() == 0) return finish(sweep, arguments.json, arguments.quiet);
+  const std::string text = submit(sweep, choices);
+  return print_all(arguments.quiet ? "" : to_text(sweep, status) + text, 0);
+}
+
 int run_sweep(const SweepArguments& arguments, const seif::Registry& registry) {
-  if (!arguments.status.empty()) {
-    const SweepFolder sweep = open_sweep(arguments.status);
-    const SweepStatus status = status_of(sweep);
-    return print_all(to_text(sweep, status), status.failed.empty() ? 0 : 1);
-  }
+  if (!arguments.status.empty()) return tell_status(open_sweep(arguments.status));
   const Shard shard = parse_shard(arguments.shard);
   const std::optional<SweepFolder> sweep = find_sweep(arguments, registry);
   if (!sweep) return 2;
-  if (!run_cells(*sweep, shard, arguments.jobs, arguments.quiet || arguments.json, registry)) return 130;
-  const SweepStatus status = status_of(*sweep);
-  if (status.open > 0) return pause(*sweep, status, shard, arguments.quiet || arguments.json);
-  return finish(*sweep, arguments.json, arguments.quiet);
+  return arguments.slurm ? run_on_slurm(*sweep, arguments) : run_here(*sweep, shard, arguments, registry);
 }
 
 int merge(const MergeArguments& arguments) {
@@ -128,6 +150,22 @@ void add_how_it_is_swept(CLI::App& command, SweepArguments& arguments) {
   command.add_flag("--quiet", arguments.quiet, "Print errors only");
 }
 
+void add_slurm(CLI::App& command, SweepArguments& arguments) {
+  command
+      .add_flag("--slurm", arguments.slurm,
+                "Submit what is not done, and not in the queue, as a job array, and a job that merges it")
+      ->excludes("--shard");
+  command.add_option("--array", arguments.slurm_choices.tasks, "Tasks of the job array; 64 by default")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("INT")
+      ->needs("--slurm");
+  command
+      .add_option("--sbatch", arguments.slurm_choices.options,
+                  "Option for sbatch, such as --sbatch=--partition=long; may stand several times")
+      ->allow_extra_args(false)
+      ->needs("--slurm");
+}
+
 }  // namespace
 
 void add_sweep(CommandLine line) {
@@ -146,6 +184,7 @@ void add_sweep(CommandLine line) {
   auto arguments = std::make_shared<SweepArguments>();
   add_what_is_swept(*command, *arguments);
   add_how_it_is_swept(*command, *arguments);
+  add_slurm(*command, *arguments);
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     arguments->choices.world = arguments->world;
     code = guarded([&] { return run_sweep(*arguments, registry); });
