@@ -43,8 +43,18 @@ struct RunScore {
   std::vector<EstimatorScore> estimators;
 };
 
-/// Throws BadInput if a file is missing or broken.
+// These throw BadInput if a file is missing or broken.
+
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval);
+
+/// The poses of <name>.tum beside the truth, where that is known.
+std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name);
+
+/// <name>_map.csv.
+std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name);
+
+/// The landmarks of a map that the world has too, beside the truth, which is sorted by id.
+std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth);
 
 }  // namespace harness
