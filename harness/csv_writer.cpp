@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -86,6 +87,14 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   file.append(text);
   file.close();
   std::filesystem::rename(unfinished, path);
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file)
+    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
+  return text;
 }
 
 std::string csv_cell(std::string_view text) {

@@ -38,6 +38,9 @@ class OutputFile {
 /// Writes the whole text, so that nobody ever finds part of the file under its name.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
+/// Reads a file that is there. Throws std::system_error.
+std::string read_whole_file(const std::filesystem::path& path);
+
 /// A text as one cell of a table: between quotes where it needs them (RFC 4180).
 std::string csv_cell(std::string_view text);
 

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   harness::add_run(line);
   harness::add_replay(line);
   harness::add_score(line);
+  harness::add_export(line);
   harness::add_film(line);
   harness::add_compare(line);
   harness::add_sweep(line);

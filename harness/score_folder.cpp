@@ -104,17 +104,24 @@ void score_consistency(const std::filesystem::path& folder, EstimatorScore& scor
 
 }  // namespace
 
+std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name) {
+  CsvReader rows =
+      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
+  std::vector<TimedPose> poses;
+  while (rows.next()) {
+    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
+    poses.push_back({rows.number(0), {rows.number(1), rows.number(2), theta}});
+  }
+  return poses;
+}
+
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
   std::vector<PosePair> poses;
   if (!std::filesystem::exists(folder / "truth.csv")) return poses;
   TruthReader truth(folder / "truth.csv");
-  CsvReader rows =
-      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
-  while (rows.next()) {
-    const double t = rows.number(0);
-    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
-    const std::optional<TruePose> true_pose = truth.at(t);
-    if (true_pose) poses.push_back({t, {rows.number(1), rows.number(2), theta}, true_pose->T_world_robot});
+  for (const TimedPose& pose : read_trajectory(folder, name)) {
+    const std::optional<TruePose> true_pose = truth.at(pose.t);
+    if (true_pose) poses.push_back({pose.t, pose.T_world_robot, true_pose->T_world_robot});
   }
   return poses;
 }

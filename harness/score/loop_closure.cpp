@@ -5,7 +5,7 @@
 
 namespace harness {
 
-std::vector<std::size_t> loop_closures(std::span<const Sighting> scans, double away) {
+std::vector<std::size_t> loop_closures(std::span<const SeenScan> scans, double away) {
   std::vector<std::size_t> closures;
   std::map<seif::LandmarkId, double> last_seen;  // [s]
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -12,14 +12,14 @@
 namespace harness {
 
 /// The landmarks that a scan saw.
-struct Sighting {
+struct SeenScan {
   double t = 0.0;  // [s]
   std::vector<seif::LandmarkId> landmarks;
 };
 
 /// The scans, by index, at which a landmark is seen that was seen before and then not for `away` [s] or
 /// longer; for each return the first of them: none follows within `away` of another.
-std::vector<std::size_t> loop_closures(std::span<const Sighting> scans, double away);
+std::vector<std::size_t> loop_closures(std::span<const SeenScan> scans, double away);
 
 /// Updates since a closure at which the response is taken; -1 is the last update before it. [-]
 inline constexpr std::array<int, 8> response_updates = {-1, 0, 1, 2, 5, 10, 20, 50};

@@ -7,8 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <system_error>
 
@@ -64,14 +62,6 @@ void write_durable_file(const std::filesystem::path& path, std::string_view text
   DurableFile file(path);
   file.append(text);
   file.commit();
-}
-
-std::string read_whole_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file)
-    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
-  return text;
 }
 
 void remove_unfinished_files(const std::filesystem::path& folder) {

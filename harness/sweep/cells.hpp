@@ -30,9 +30,6 @@ class DurableFile {
 /// The whole text as a durable file.
 void write_durable_file(const std::filesystem::path& path, std::string_view text);
 
-/// Reads a file that is there. Throws std::system_error.
-std::string read_whole_file(const std::filesystem::path& path);
-
 /// Takes away what writers of durable files that were killed have left in a folder.
 void remove_unfinished_files(const std::filesystem::path& folder);
 

@@ -10,9 +10,9 @@ namespace harness {
 
 namespace {
 
-using Columns = std::vector<std::string>;
+using ColumnNames = std::vector<std::string>;
 
-void add_columns(const std::vector<NamedValue>& values, Columns& columns) {
+void add_columns(const std::vector<NamedValue>& values, ColumnNames& columns) {
   for (const NamedValue& value : values) {
     if (std::ranges::find(columns, value.name) == columns.end()) columns.push_back(value.name);
   }
@@ -21,7 +21,7 @@ void add_columns(const std::vector<NamedValue>& values, Columns& columns) {
 /// A table with a row for each run and estimator, in the order of the cells.
 class RunsTable {
  public:
-  RunsTable(const std::filesystem::path& path, const SweepPlan& plan, Columns columns)
+  RunsTable(const std::filesystem::path& path, const SweepPlan& plan, ColumnNames columns)
       : file_(path), plan_(plan), columns_(std::move(columns)) {
     std::string header = "cell";
     for (const SweepAxis& axis : plan.axes) header += ',' + csv_cell(axis.path);
@@ -49,7 +49,7 @@ class RunsTable {
  private:
   DurableFile file_;
   const SweepPlan& plan_;
-  Columns columns_;
+  ColumnNames columns_;
 };
 
 std::vector<EstimatorRow> read_cell(const SweepFolder& sweep, std::size_t index) {
@@ -59,8 +59,8 @@ std::vector<EstimatorRow> read_cell(const SweepFolder& sweep, std::size_t index)
 /// What a first pass over all cells finds.
 struct Gathered {
   Aggregate aggregate;
-  Columns scores;
-  Columns times;
+  ColumnNames scores;
+  ColumnNames times;
 };
 
 Gathered gather(const SweepFolder& sweep, const std::vector<CellState>& states) {

@@ -95,7 +95,7 @@ TEST(CountLandmarks, MatchesTheHandComputedCase) {
 }
 
 TEST(LoopClosures, AreReturnsAfterAnAbsence) {
-  const std::vector<Sighting> scans = {{0, {1, 2}}, {1, {2}},  {5, {3}},  {9, {3}}, {10, {1}},
+  const std::vector<SeenScan> scans = {{0, {1, 2}}, {1, {2}},  {5, {3}},  {9, {3}}, {10, {1}},
                                        {11, {2}},   {21, {1}}, {30, {1}}, {41, {3}}};
   // 1 returns after 10 s, 2 right behind it: one closure. At 21 s 1 is back after 11 s. At 30 s it was away
   // for 9 s. At 41 s 3 is back after 32 s.
