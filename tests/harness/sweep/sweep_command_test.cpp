@@ -30,7 +30,7 @@ void write_world(const TemporaryFolder& folder) {
   write_file(
       folder / "world.yaml",
       "name: small\n"
-      "duration_s: 8\n"
+      "duration_s: 2\n"
       "physics: {engine: kinematic}\n"
       "landmarks: {generators: [{type: uniform, count: 20, region: {min_m: [-6, -6], max_m: [6, 6]}}]}\n"
       "drive: {mode: loop, waypoints_m: [[3, 3], [-3, 3], [-3, -3], [3, -3]]}\n"
@@ -129,7 +129,7 @@ bool begin_and_kill(const TemporaryFolder& folder, std::chrono::microseconds aft
   if (program == 0) {
     setpgid(0, 0);
     std::filesystem::current_path(folder.path());
-    execl(SEIFBED_PROGRAM, SEIFBED_PROGRAM, "sweep", "world.yaml", "--seeds", "1..80", "--jobs", "2", "--out",
+    execl(SEIFBED_PROGRAM, SEIFBED_PROGRAM, "sweep", "world.yaml", "--seeds", "1..40", "--jobs", "2", "--out",
           "killed", "--quiet", nullptr);
     _exit(1);
   }
@@ -145,7 +145,7 @@ TEST(SweepCommand, KilledTenTimesItEndsWithTheSameBytes) {
   const TemporaryFolder folder;
   write_world(folder);
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(call(folder, "sweep world.yaml --seeds 1..80 --out whole --quiet").exit_code, 0);
+  EXPECT_EQ(call(folder, "sweep world.yaml --seeds 1..40 --out whole --quiet").exit_code, 0);
   const auto taken =
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
   std::mt19937_64 random(20020402);
@@ -157,7 +157,7 @@ TEST(SweepCommand, KilledTenTimesItEndsWithTheSameBytes) {
   }
   EXPECT_GE(killed, 6) << "or it has tried little";
   EXPECT_FALSE(std::filesystem::is_empty(folder / "killed" / "cells")) << "or each time too early";
-  EXPECT_EQ(call(folder, "sweep world.yaml --seeds 1..80 --jobs 2 --out killed --quiet").exit_code, 0);
+  EXPECT_EQ(call(folder, "sweep world.yaml --seeds 1..40 --jobs 2 --out killed --quiet").exit_code, 0);
   EXPECT_EQ(differing(folder, "killed", tables(folder, "whole")), none);
 }
 
