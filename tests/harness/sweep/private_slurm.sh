@@ -2,6 +2,7 @@
 # A Slurm of one's own with one node, on loopback, everything in one folder:
 #   private_slurm.sh start DIR    then SLURM_CONF=DIR/slurm.conf sbatch ..
 #   private_slurm.sh stop DIR
+#   private_slurm.sh watch DIR PID    stops it when the process PID has ended, however that came
 # It needs munged, slurmctld and slurmd, and to be root. It is there when `start` has returned.
 set -euo pipefail
 PATH=$PATH:/usr/sbin
@@ -93,6 +94,12 @@ stop() {
   done
 }
 
-[[ $# == 2 && ($1 == start || $1 == stop) ]] || die "usage: private_slurm.sh start|stop DIR"
+watch() {
+  until ended "$1"; do sleep 1; done
+  [[ ! -e munged.pid ]] || stop
+}
+
+[[ ($# == 2 && ($1 == start || $1 == stop)) || ($# == 3 && $1 == watch) ]] ||
+  die "usage: private_slurm.sh start|stop DIR, or watch DIR PID"
 cd "$2"
-"$1"
+"$1" "${@:3}"

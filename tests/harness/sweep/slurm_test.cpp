@@ -63,6 +63,9 @@ class SlurmTest : public testing::Test {
     const Called called = call_program(folder, script + "start private");
     started = called.exit_code == 0;
     ASSERT_TRUE(started) << called.errors;
+    // A test that runs out of time is killed, and leaves no daemons then.
+    call_program(folder, "(setsid " + script + "watch private " + std::to_string(getpid()) +
+                             " >private/watch.log 2>&1 </dev/null &)");
     test::write_file(folder / "world.yaml",
                      "name: small\n"
                      "duration_s: 60\n"
