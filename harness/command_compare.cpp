@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
-#include <set>
 
+#include "harness/baseline.hpp"
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
 #include "harness/estimator_schemas.hpp"
 #include "harness/parallel_runs.hpp"
 #include "harness/replay_settings.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/seeds.hpp"
 #include "harness/version.hpp"
 
 namespace harness {
@@ -27,59 +27,6 @@ struct CompareArguments {
   bool json = false;
   bool quiet = false;
 };
-
-constexpr std::uint64_t most_seeds = 100'000;
-
-std::uint64_t parse_seed(std::string_view text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw BadInput(fmt::format("--seeds: '{}' is no seed; what is meant is like 1..20 or 1,2,7", text));
-  return seed;
-}
-
-/// "1..3,7" means 1, 2, 3 and 7.
-std::vector<std::uint64_t> parse_seeds(std::string_view text) {
-  std::set<std::uint64_t> seeds;
-  while (true) {
-    const std::string_view part = text.substr(0, text.find(','));
-    const std::size_t dots = part.find("..");
-    const std::uint64_t first = parse_seed(part.substr(0, dots));
-    const std::uint64_t last = dots == std::string_view::npos ? first : parse_seed(part.substr(dots + 2));
-    if (last < first || last - first >= most_seeds)
-      throw BadInput(fmt::format("--seeds: {} is no range of at most {} seeds", part, most_seeds));
-    for (std::uint64_t seed = first; seed <= last; ++seed) seeds.insert(seed);
-    if (part.size() == text.size()) return {seeds.begin(), seeds.end()};
-    text.remove_prefix(part.size() + 1);
-  }
-}
-
-bool is_among(std::span<const worlds::EstimatorChoice> estimators, const std::string& name) {
-  return std::ranges::find(estimators, name, &worlds::EstimatorChoice::name) != estimators.end();
-}
-
-/// The estimator to compare with, from what was asked for and what there is.
-std::string choose_baseline(const std::string& asked, std::span<const worlds::EstimatorChoice> estimators) {
-  if (estimators.empty()) throw BadInput("there are no estimators to compare");
-  if (asked.empty()) return is_among(estimators, "ekf") ? "ekf" : estimators.front().name;
-  if (!is_among(estimators, asked))
-    throw BadInput(fmt::format("--baseline: there is no estimator '{}'", asked));
-  return asked;
-}
-
-/// Loads a world or the settings of a log, with the baseline among its estimators if that is a registered
-/// type. Prints what is wrong, and gives a result without world then.
-template <class Load>
-worlds::LoadResult load_with_baseline(const std::string& baseline, const seif::Registry& registry,
-                                      std::vector<std::string>& overrides, const Load& load) {
-  worlds::LoadResult loaded = load();
-  if (loaded.world && !is_among(loaded.world->estimators, baseline) && registry.find(baseline) != nullptr) {
-    overrides.push_back(fmt::format("estimators.{}={{}}", baseline));
-    loaded = load();
-  }
-  if (!loaded.world) print_problems(loaded.problems);
-  return loaded;
-}
 
 /// Runs in a folder below `keep`, or in one that goes afterwards.
 template <class WriteWorld>
@@ -117,7 +64,10 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
         return worlds::load_world(arguments.inputs.front(), arguments.choices.overrides,
                                   estimator_schemas(registry));
       });
-  if (!loaded.world) return std::nullopt;
+  if (!loaded.world) {
+    print_problems(loaded.problems);
+    return std::nullopt;
+  }
   comparison.name = loaded.world->name;
   comparison.baseline = choose_baseline(arguments.baseline, loaded.world->estimators);
   std::vector<PlannedRun> planned;
@@ -143,7 +93,10 @@ std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, co
     const worlds::LoadResult settings =
         load_with_baseline(arguments.baseline, registry, choices.overrides,
                            [&] { return load_replay_settings(log, choices, registry); });
-    if (!settings.world) return std::nullopt;
+    if (!settings.world) {
+      print_problems(settings.problems);
+      return std::nullopt;
+    }
     const std::string baseline = choose_baseline(arguments.baseline, settings.world->estimators);
     if (planned.empty()) comparison.baseline = baseline;
     if (baseline != comparison.baseline)

@@ -23,9 +23,13 @@ struct CommandLine {
 
 void add_run(CommandLine line);
 void add_replay(CommandLine line);
+void add_score(CommandLine line);
+void add_export(CommandLine line);
 void add_film(CommandLine line);
 void add_compare(CommandLine line);
 void add_stress(CommandLine line);
+void add_sweep(CommandLine line);
+void add_merge(CommandLine line);
 void add_validate(CommandLine line);
 void add_schema(CommandLine line);
 void add_estimators(CommandLine line);

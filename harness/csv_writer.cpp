@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -58,6 +59,11 @@ void OutputFile::flush() {
   if (status.st_nlink == 0) fail(ENOENT);
 }
 
+void OutputFile::sync() {
+  flush();
+  if (::fsync(descriptor_) != 0) fail(errno);
+}
+
 void OutputFile::close() {
   if (descriptor_ < 0) return;
   try {
@@ -81,6 +87,21 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   file.append(text);
   file.close();
   std::filesystem::rename(unfinished, path);
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file)
+    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
+  return text;
+}
+
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string cell = "\"";
+  for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+  return cell + '"';
 }
 
 CsvWriter::CsvWriter(std::filesystem::path path, std::string_view header, char separator)

@@ -21,6 +21,8 @@ class OutputFile {
 
   /// Hands everything to the operating system.
   void flush();
+  /// The same, and waits until it is on the disk.
+  void sync();
   void close();
 
   const std::filesystem::path& path() const { return path_; }
@@ -35,6 +37,12 @@ class OutputFile {
 
 /// Writes the whole text, so that nobody ever finds part of the file under its name.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
+
+/// Reads a file that is there. Throws std::system_error.
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// A text as one cell of a table: between quotes where it needs them (RFC 4180).
+std::string csv_cell(std::string_view text);
 
 /// Rows of values. Numbers read back to the same bits.
 class CsvWriter {

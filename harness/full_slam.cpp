@@ -186,6 +186,11 @@ seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second
   return {second.t, predicted.pose, F * first.covariance * F.transpose() + L * L.transpose()};
 }
 
+Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d W = whitening_of_motion(covariance);
+  return W.transpose() * W;
+}
+
 bool is_certain(const seif::Odometry& motion) {
   return motion.covariance.trace() <= smallest_sd * smallest_sd;
 }

@@ -43,6 +43,10 @@ seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second
 /// Whether a motion is so certain that what was seen after it may count as seen from where it began.
 bool is_certain(const seif::Odometry& motion);
 
+/// The inverse of a motion's covariance, whatever its rank: no direction is known better than to 1e-6 m or
+/// rad.
+Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance);
+
 /// The poses for a map that is taken as known: an extended Kalman filter of the pose alone.
 std::vector<seif::Pose2> poses_on_map(const FullSlam& slam, std::span<const Eigen::Vector2d> landmarks);
 

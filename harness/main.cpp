@@ -21,9 +21,13 @@ int main(int argc, char** argv) {
   const harness::CommandLine line{app, registry, exit_code};
   harness::add_run(line);
   harness::add_replay(line);
+  harness::add_score(line);
+  harness::add_export(line);
   harness::add_film(line);
   harness::add_compare(line);
   harness::add_stress(line);
+  harness::add_sweep(line);
+  harness::add_merge(line);
   harness::add_validate(line);
   harness::add_schema(line);
   harness::add_estimators(line);

@@ -23,6 +23,21 @@ std::optional<double> nees_per_dof(const Vector& error, const Matrix& covariance
   return value;
 }
 
+RelativePoseError error_of_motions(std::span<const PosePair> poses,
+                                   std::span<const std::pair<std::size_t, std::size_t>> pairs) {
+  if (pairs.empty()) return {};
+  double translation = 0.0;
+  double rotation = 0.0;
+  for (const auto& [i, j] : pairs) {
+    const seif::Pose2 true_motion = inverse(poses[i].true_pose) * poses[j].true_pose;
+    const seif::Pose2 est_motion = inverse(poses[i].est_pose) * poses[j].est_pose;
+    const seif::Pose2 error = inverse(true_motion) * est_motion;
+    translation += error.x * error.x + error.y * error.y;
+    rotation += error.theta * error.theta;
+  }
+  return {root_mean_square(translation, pairs.size()), root_mean_square(rotation, pairs.size())};
+}
+
 }  // namespace
 
 PointScore score_points(std::span<const PointPair> points) {
@@ -53,25 +68,46 @@ PointScore absolute_trajectory_error(std::span<const PosePair> poses) {
   return score_points(points);
 }
 
-RelativePoseError relative_pose_error(std::span<const PosePair> poses, double interval) {
-  double translation = 0.0;
-  double rotation = 0.0;
-  std::size_t count = 0;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double wanted = poses[i].t + interval;
-    const auto miss = [&](std::size_t k) { return std::abs(poses[k].t - wanted); };
-    while (j + 1 < poses.size() && miss(j + 1) <= miss(j)) ++j;
-    if (j <= i || miss(j) > 0.1 * interval) continue;
-    const seif::Pose2 true_motion = inverse(poses[i].true_pose) * poses[j].true_pose;
-    const seif::Pose2 est_motion = inverse(poses[i].est_pose) * poses[j].est_pose;
-    const seif::Pose2 error = inverse(true_motion) * est_motion;
-    translation += error.x * error.x + error.y * error.y;
-    rotation += error.theta * error.theta;
-    ++count;
+std::vector<std::pair<std::size_t, std::size_t>> pairs_apart(std::span<const double> values, double apart) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double wanted = values[i] + apart;
+    const auto after = std::ranges::lower_bound(values, wanted);
+    // Of the values below, the first that equals the last.
+    const auto before = std::lower_bound(values.begin(), after, after == values.begin() ? wanted : after[-1]);
+    const auto miss = [&](auto value) { return std::abs(*value - wanted); };
+    const bool is_before = after == values.end() || (before != after && miss(before) <= miss(after));
+    const auto nearest = is_before ? before : after;
+    const auto j = static_cast<std::size_t>(nearest - values.begin());
+    if (j > i && miss(nearest) <= 0.1 * apart) pairs.emplace_back(i, j);
   }
-  if (count == 0) return {};
-  return {root_mean_square(translation, count), root_mean_square(rotation, count)};
+  return pairs;
+}
+
+RelativePoseError relative_pose_error(std::span<const PosePair> poses, double interval) {
+  std::vector<double> times;
+  for (const PosePair& pair : poses) times.push_back(pair.t);
+  return error_of_motions(poses, pairs_apart(times, interval));
+}
+
+RelativePoseError relative_pose_error_along_path(std::span<const PosePair> poses, double distance) {
+  std::vector<double> path(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const seif::Pose2& from = poses[i - 1].true_pose;
+    const seif::Pose2& to = poses[i].true_pose;
+    path[i] = path[i - 1] + std::hypot(to.x - from.x, to.y - from.y);
+  }
+  return error_of_motions(poses, pairs_apart(path, distance));
+}
+
+std::optional<double> rmse_from_robot(std::span<const PointPair> points, const PosePair& pose) {
+  if (points.empty()) return std::nullopt;
+  const seif::Pose2 T_est_robot_world = inverse(pose.est_pose);
+  const seif::Pose2 T_true_robot_world = inverse(pose.true_pose);
+  double sum = 0.0;
+  for (const PointPair& pair : points)
+    sum += (T_est_robot_world * pair.est_point - T_true_robot_world * pair.true_point).squaredNorm();
+  return root_mean_square(sum, points.size());
 }
 
 std::optional<double> nees(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "seif/types.hpp"
@@ -43,6 +44,17 @@ struct RelativePoseError {
 
 /// Over all pairs of poses that are `interval` [s] apart, within a tenth. Poses in the order of time.
 RelativePoseError relative_pose_error(std::span<const PosePair> poses, double interval);
+
+/// The same over all pairs that are `distance` [m] apart along the true path.
+RelativePoseError relative_pose_error_along_path(std::span<const PosePair> poses, double distance);
+
+/// For each value the one behind it that is nearest to it and `apart` more, the first of equals, if it is so
+/// within a tenth of `apart`: indices. The values never fall, and `apart` is more than zero.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_apart(std::span<const double> values, double apart);
+
+/// Root mean square distance of points as seen from the robot, each pair from its own pose; nothing without
+/// points. [m]
+std::optional<double> rmse_from_robot(std::span<const PointPair> points, const PosePair& pose);
 
 /// Normalised estimation error squared for each degree of freedom: error' covariance^-1 error / n. 1 is
 /// right. Nothing if the covariance is not positive definite.

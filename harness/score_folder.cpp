@@ -13,22 +13,6 @@ namespace {
 
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
 
-/// The poses of a TUM file beside the truth, where that is known.
-std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
-  std::vector<PosePair> poses;
-  if (!std::filesystem::exists(folder / "truth.csv")) return poses;
-  TruthReader truth(folder / "truth.csv");
-  CsvReader rows =
-      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
-  while (rows.next()) {
-    const double t = rows.number(0);
-    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
-    const std::optional<TruePose> true_pose = truth.at(t);
-    if (true_pose) poses.push_back({t, {rows.number(1), rows.number(2), theta}, true_pose->T_world_robot});
-  }
-  return poses;
-}
-
 void score_trajectory(const std::filesystem::path& folder, double rpe_interval, EstimatorScore& score) {
   const std::vector<PosePair> poses = read_poses(folder, score.name);
   score.trajectory = absolute_trajectory_error(poses);
@@ -37,21 +21,12 @@ void score_trajectory(const std::filesystem::path& folder, double rpe_interval, 
 
 void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, bool is_known,
                EstimatorScore& score) {
-  CsvReader rows(folder / (score.name + "_map.csv"),
-                 {{"landmark", "x", "y", "cov_xx", "cov_xy", "cov_yy"}, {}});
-  std::vector<PointPair> points;
-  int mapped = 0;
-  while (rows.next()) {
-    ++mapped;
-    const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
-    const auto it = std::ranges::lower_bound(truth, id, {}, &TrueLandmark::landmark);
-    if (it == truth.end() || it->landmark != id) continue;
-    points.push_back({{rows.number(1), rows.number(2)}, it->position});
-  }
-  score.landmarks_mapped = mapped;
+  const std::vector<MapRecord> map = read_map(folder, score.name);
+  score.landmarks_mapped = static_cast<int>(map.size());
   if (!is_known) return;
+  const std::vector<PointPair> points = pair_landmarks(map, truth);
   score.landmarks = score_points(points);
-  score.landmarks_spurious = mapped - static_cast<int>(points.size());
+  score.landmarks_spurious = static_cast<int>(map.size() - points.size());
 }
 
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
@@ -128,6 +103,52 @@ void score_consistency(const std::filesystem::path& folder, EstimatorScore& scor
 }
 
 }  // namespace
+
+std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name) {
+  CsvReader rows =
+      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
+  std::vector<TimedPose> poses;
+  while (rows.next()) {
+    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
+    poses.push_back({rows.number(0), {rows.number(1), rows.number(2), theta}});
+  }
+  return poses;
+}
+
+std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<PosePair> poses;
+  if (!std::filesystem::exists(folder / "truth.csv")) return poses;
+  TruthReader truth(folder / "truth.csv");
+  for (const TimedPose& pose : read_trajectory(folder, name)) {
+    const std::optional<TruePose> true_pose = truth.at(pose.t);
+    if (true_pose) poses.push_back({pose.t, pose.T_world_robot, true_pose->T_world_robot});
+  }
+  return poses;
+}
+
+std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name) {
+  CsvReader rows(folder / (name + "_map.csv"), {{"landmark", "x", "y", "cov_xx", "cov_xy", "cov_yy"}, {}});
+  std::vector<MapRecord> map;
+  while (rows.next()) {
+    const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
+    map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
+    if (rows.is_empty(3)) continue;
+    Eigen::Matrix2d covariance;
+    covariance << rows.number(3), rows.number(4), rows.number(4), rows.number(5);
+    map.back().covariance = covariance;
+  }
+  return map;
+}
+
+std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth) {
+  std::vector<PointPair> points;
+  for (const MapRecord& landmark : map) {
+    const auto it = std::ranges::lower_bound(truth, landmark.landmark, {}, &TrueLandmark::landmark);
+    if (it != truth.end() && it->landmark == landmark.landmark)
+      points.push_back({landmark.mean, it->position});
+  }
+  return points;
+}
 
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval) {

@@ -38,13 +38,31 @@ struct EstimatorScore {
   std::optional<std::int64_t> memory_bytes;                      // [byte] at the end
 };
 
+struct TimedPose {
+  double t = 0.0;  // [s]
+  seif::Pose2 T_world_robot;
+};
+
 struct RunScore {
   EstimatorScore odometry;  // dead reckoning; the trajectory alone
   std::vector<EstimatorScore> estimators;
 };
 
-/// Throws BadInput if a file is missing or broken.
+// These throw BadInput if a file is missing or broken.
+
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval);
+
+/// The poses of <name>.tum.
+std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name);
+
+/// The poses of <name>.tum beside the truth, where that is known.
+std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name);
+
+/// <name>_map.csv.
+std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name);
+
+/// The landmarks of a map that the world has too, beside the truth, which is sorted by id.
+std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth);
 
 }  // namespace harness

@@ -30,6 +30,12 @@ packages=(
   "gnuplot-nox           draws times against the number of landmarks"
 )
 
+# What ./test installs besides: the program works with these, and without.
+test_packages=(
+  "munge                 lets the parts of Slurm trust each other"
+  "slurm-wlm             runs sweeps on a cluster"
+)
+
 say() { printf 'set-up: %s\n' "$*" >&2; }
 
 die() {

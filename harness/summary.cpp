@@ -1,7 +1,12 @@
 #include "harness/summary.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "harness/csv_reader.hpp"
 
 namespace harness {
 
@@ -64,7 +69,39 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   return json;
 }
 
+Summary parse_summary(std::istream& text) {
+  const Json json = Json::parse(text);
+  Summary summary;
+  summary.world = json.at("world");
+  summary.seed = json.at("seed");
+  summary.version = json.at("version");
+  summary.duration = json.at("duration_s");
+  summary.updates = json.at("updates");
+  summary.interrupted = json.at("interrupted");
+  summary.trajectory_hash = json.at("trajectory_hash");
+  summary.realtime_factor = json.at("realtime_factor");
+  summary.rpe_interval = json.at("rpe_interval_s");
+  for (const auto& [name, score] : json.at("estimators").items()) {
+    summary.score.estimators.emplace_back().name = name;
+    const Json& failure = score.at("failure");
+    summary.failures.push_back(failure.is_null() ? "" : failure.get<std::string>());
+  }
+  return summary;
+}
+
 }  // namespace
+
+Summary read_summary(const std::filesystem::path& file) {
+  std::ifstream text(file);
+  if (!text)
+    throw BadInput(fmt::format("{}: cannot be read; a run writes it when it ends, and so does a replay of it",
+                               file.string()));
+  try {
+    return parse_summary(text);
+  } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: is no summary of a run: {}", file.string(), error.what()));
+  }
+}
 
 std::string to_json(const Summary& summary) {
   Json json;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "harness/score_folder.hpp"
@@ -21,6 +22,10 @@ struct Summary {
   RunScore score;
   std::vector<std::string> failures;  // one for each of score.estimators; empty: none
 };
+
+/// What stands in a summary.json, but of the scores the names of the estimators alone: the others are in the
+/// folder. Throws BadInput.
+Summary read_summary(const std::filesystem::path& file);
 
 /// Values that are not available, or not finite, are null.
 std::string to_json(const Summary& summary);

@@ -261,7 +261,9 @@ bool includes_library(const Source& source, const Library& library) {
 }
 
 /// What scores takes trajectories, maps and covariances, whoever made them.
-bool is_scorer(std::string_view path) { return path.starts_with("harness/score."); }
+bool is_scorer(std::string_view path) {
+  return path.starts_with("harness/score.") || path.starts_with("harness/score/");
+}
 
 /// The items of one target_link_libraries that its room may not link so.
 Findings check_link_line(const Command& command, const Room& room, std::string_view path) {

@@ -1,0 +1,133 @@
+#include "harness/exports/graph.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "harness/log_stream.hpp"
+#include "harness/score_folder.hpp"
+#include "seif/models.hpp"
+
+namespace harness {
+
+namespace {
+
+/// Takes in a stream, and puts poses and landmarks where an estimator has them.
+class GraphBuilder {
+ public:
+  GraphBuilder(const LogDescription& log, std::vector<TimedPose> trajectory,
+               const std::vector<MapRecord>& map)
+      : T_robot_sensor_(log.T_robot_sensor), trajectory_(std::move(trajectory)) {
+    graph_.slam.start = log.start;
+    graph_.poses.push_back(log.start.mean);
+    for (const MapRecord& landmark : map) map_[landmark.landmark] = landmark.mean;
+  }
+
+  void take(const OdometryEvent& event) { motion_ = compose(motion_, event.odometry); }
+
+  void take(const ScanEvent& event) {
+    // As in the optimum: where the robot has not moved there is no new pose.
+    if (!is_certain(motion_)) add_pose();
+    ++scans_;
+    const seif::Pose2 T_pose_sensor = motion_.T_previous_current * T_robot_sensor_;
+    for (const seif::Observation& observation : event.scan.observations)
+      graph_.slam.sightings.push_back(
+          {graph_.slam.pose_count() - 1, number_of(observation), T_pose_sensor, observation});
+  }
+
+  RecordedGraph graph() && { return std::move(graph_); }
+
+ private:
+  void add_pose() {
+    const bool is_known = scans_ < trajectory_.size();
+    graph_.poses.push_back(is_known ? trajectory_[scans_].T_world_robot
+                                    : graph_.poses.back() * motion_.T_previous_current);
+    graph_.slam.motions.push_back(std::exchange(motion_, {}));
+  }
+
+  /// A landmark that is new gets the next number.
+  int number_of(const seif::Observation& observation) {
+    const auto [number, is_new] = numbers_.try_emplace(observation.landmark, graph_.slam.landmark_count);
+    if (!is_new) return number->second;
+    const auto mapped = map_.find(observation.landmark);
+    graph_.ids.push_back(observation.landmark);
+    graph_.landmarks.push_back(mapped != map_.end() ? mapped->second : seen_at(observation));
+    return graph_.slam.landmark_count++;
+  }
+
+  Eigen::Vector2d seen_at(const seif::Observation& observation) const {
+    const seif::Pose2 T_world_robot = graph_.poses.back() * motion_.T_previous_current;
+    return seif::invert_observation(T_world_robot, T_robot_sensor_, observation).p_world_landmark;
+  }
+
+  seif::Pose2 T_robot_sensor_;
+  std::vector<TimedPose> trajectory_;  // one for each scan
+  std::map<seif::LandmarkId, Eigen::Vector2d> map_;
+  std::map<seif::LandmarkId, int> numbers_;
+  std::size_t scans_ = 0;  // [-] taken in
+  seif::Odometry motion_;  // since the last pose
+  RecordedGraph graph_;
+};
+
+/// The upper triangle, row by row.
+template <class Matrix>
+void add_information(const Matrix& information, std::string& text) {
+  for (Eigen::Index i = 0; i < information.rows(); ++i) {
+    for (Eigen::Index j = i; j < information.cols(); ++j)
+      fmt::format_to(std::back_inserter(text), " {}", information(i, j));
+  }
+  text += '\n';
+}
+
+void add_pose(const seif::Pose2& pose, std::string& text) {
+  fmt::format_to(std::back_inserter(text), " {} {} {}", pose.x, pose.y, pose.theta);
+}
+
+/// A range and a bearing as a point in the frame of the pose, its covariance to first order.
+void add_sighting(const Sighting& sighting, int landmark, std::string& text) {
+  const seif::InverseObservation inverse =
+      seif::invert_observation({}, sighting.T_pose_sensor, sighting.observation);
+  const Eigen::Matrix2d& J = inverse.J_wrt_observation;
+  const Eigen::Matrix2d covariance = J * sighting.observation.covariance * J.transpose();
+  const Eigen::Vector2d& p = inverse.p_world_landmark;
+  fmt::format_to(std::back_inserter(text), "EDGE_SE2_XY {} {} {} {}", sighting.pose, landmark, p.x(), p.y());
+  add_information(Eigen::Matrix2d(covariance.inverse()), text);  // of fixed size
+}
+
+}  // namespace
+
+RecordedGraph read_graph(const std::filesystem::path& run, const std::string& estimator) {
+  LogStream stream(run);
+  GraphBuilder builder(stream.description(), read_trajectory(run, estimator), read_map(run, estimator));
+  for (Event event; stream.next(event);) std::visit([&](const auto& e) { builder.take(e); }, event);
+  return std::move(builder).graph();
+}
+
+std::string to_g2o(const RecordedGraph& graph) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < graph.poses.size(); ++i) {
+    fmt::format_to(out, "VERTEX_SE2 {}", i);
+    add_pose(graph.poses[i], text);
+    text += '\n';
+  }
+  for (std::size_t j = 0; j < graph.landmarks.size(); ++j) {
+    const Eigen::Vector2d& p = graph.landmarks[j];
+    fmt::format_to(out, "VERTEX_XY {} {} {}\n", graph.poses.size() + j, p.x(), p.y());
+  }
+  text += "FIX 0\n";
+  for (std::size_t i = 0; i < graph.slam.motions.size(); ++i) {
+    const seif::Odometry& motion = graph.slam.motions[i];
+    fmt::format_to(out, "EDGE_SE2 {} {}", i, i + 1);
+    add_pose(motion.T_previous_current, text);
+    add_information(information_of_motion(motion.covariance), text);
+  }
+  for (const Sighting& sighting : graph.slam.sightings)
+    add_sighting(sighting, graph.slam.pose_count() + sighting.landmark, text);
+  return text;
+}
+
+}  // namespace harness

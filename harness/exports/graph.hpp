@@ -1,0 +1,29 @@
+// What a run measured, as the graph that other SLAM programs optimise.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/full_slam.hpp"
+
+namespace harness {
+
+/// A recorded stream as a full SLAM problem, and the first guess that an estimator's results are.
+struct RecordedGraph {
+  FullSlam slam;
+  std::vector<seif::Pose2> poses;          // T_world_robot, one for each of the problem's
+  std::vector<Eigen::Vector2d> landmarks;  // p_world_landmark [m]
+  std::vector<seif::LandmarkId> ids;       // of the landmarks
+};
+
+/// Poses are those after the estimator's updates, and landmarks those of its map in the end. What it does not
+/// have, because it was taken out of the run, comes from odometry and from where a landmark was first seen.
+/// Throws BadInput.
+RecordedGraph read_graph(const std::filesystem::path& run, const std::string& estimator);
+
+/// As g2o and GTSAM read it: VERTEX_SE2 from 0, VERTEX_XY behind them in the order in which the landmarks
+/// were first seen, EDGE_SE2, EDGE_SE2_XY, and the first pose fixed.
+std::string to_g2o(const RecordedGraph& graph);
+
+}  // namespace harness

@@ -1,0 +1,55 @@
+// What `seifbed score` tells of a run beyond its summary, from the files of its folder. Definitions:
+// docs/scores.md.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/score.hpp"
+#include "harness/score/loop_closure.hpp"
+#include "harness/score/map_counts.hpp"
+#include "harness/summary.hpp"
+
+namespace harness {
+
+struct DetailChoices {
+  std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] of the relative pose error
+  double away = 20.0;                                // [s] after which seeing a landmark again closes a loop
+  /// Where <estimator>_consistency.csv is; empty: in the folder of the run.
+  std::filesystem::path consistency;
+};
+
+/// What is not available is nothing.
+struct EstimatorDetails {
+  std::string name;
+  std::vector<RelativePoseError> rpe;              // at each of the distances
+  std::optional<MapCounts> map;                    // where the world's landmarks are known
+  std::optional<double> landmark_rmse_from_robot;  // [m] at the end
+  std::size_t poses_scored = 0;                    // [-] moments with a NEES of the pose
+  std::optional<double> pose_inside;               // [-] the share of them inside the chi-square band
+  std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
+  std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] of the position
+};
+
+struct RunDetails {
+  DetailChoices choices;
+  std::size_t closures = 0;   // [-]
+  EstimatorDetails odometry;  // the trajectory alone
+  std::vector<EstimatorDetails> estimators;
+};
+
+/// Throws BadInput if a file is missing or broken.
+RunDetails score_details(const std::filesystem::path& folder, std::span<const std::string> estimators,
+                         const DetailChoices& choices);
+
+/// The summary, with the details in each estimator.
+std::string to_json(const Summary& summary, const RunDetails& details);
+
+/// As tables for people.
+std::string details_board(const RunDetails& details);
+
+}  // namespace harness

@@ -1,0 +1,118 @@
+// The details of a run as JSON and as tables.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "harness/score/chi_square.hpp"
+#include "harness/score/details.hpp"
+#include "harness/text_table.hpp"
+
+namespace harness {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+void add_trajectory(const RunDetails& run, const EstimatorDetails& details, Json& json) {
+  for (std::size_t i = 0; i < details.rpe.size(); ++i) {
+    json["rpe_along_path"].push_back({{"distance_m", run.choices.distances[i]},
+                                      {"trans_m", number(details.rpe[i].translation)},
+                                      {"rot_rad", number(details.rpe[i].rotation)}});
+  }
+  for (std::size_t i = 0; i < response_updates.size(); ++i)
+    json["loop_closure_error_m"][fmt::format("{}", response_updates[i])] = number(details.closure_error[i]);
+}
+
+void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json& json) {
+  const std::optional<MapCounts>& map = details.map;
+  json["landmarks_missed"] = map ? Json(map->missed) : Json(nullptr);
+  json["landmarks_duplicate"] = map ? Json(map->duplicate) : Json(nullptr);
+  json["landmark_rmse_from_robot_m"] = number(details.landmark_rmse_from_robot);
+  json["nees_pose_inside"] = number(details.pose_inside);
+  json["nees_pose_inside_of"] = details.poses_scored;
+  json["nees_landmark_inside"] = number(details.landmarks_inside);
+  add_trajectory(run, details, json);
+}
+
+std::string count_cell(const std::optional<MapCounts>& map, int MapCounts::*which) {
+  return map ? fmt::format("{}", (*map).*which) : "-";
+}
+
+std::string percent_cell(std::optional<double> share) {
+  if (share) *share *= 100.0;
+  return number_cell(share, 0);
+}
+
+TextRow map_row(const EstimatorDetails& details) {
+  return {details.name,
+          count_cell(details.map, &MapCounts::missed),
+          count_cell(details.map, &MapCounts::spurious),
+          count_cell(details.map, &MapCounts::duplicate),
+          number_cell(details.landmark_rmse_from_robot, 3),
+          percent_cell(details.pose_inside),
+          fmt::format("{}", details.poses_scored),
+          percent_cell(details.landmarks_inside)};
+}
+
+TextRow path_row(const EstimatorDetails& details) {
+  TextRow row = {details.name};
+  for (const RelativePoseError& error : details.rpe) {
+    row.push_back(number_cell(error.translation, 4));
+    row.push_back(number_cell(error.rotation ? std::optional(*error.rotation * degrees) : std::nullopt, 3));
+  }
+  return row;
+}
+
+TextRow closure_row(const EstimatorDetails& details) {
+  TextRow row = {details.name};
+  for (const std::optional<double>& error : details.closure_error) row.push_back(number_cell(error, 3));
+  return row;
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary, const RunDetails& details) {
+  Json json = Json::parse(to_json(summary));
+  const auto band = [](int dof) { return Json{chi_square_band(dof).low, chi_square_band(dof).high}; };
+  json["nees_pose_band"] = band(3);
+  json["nees_landmark_band"] = band(2);
+  json["loop_closures"] = details.closures;
+  json["loop_closure_away_s"] = details.choices.away;
+  add_trajectory(details, details.odometry, json["odometry"]);
+  for (const EstimatorDetails& estimator : details.estimators)
+    add_estimator(details, estimator, json["estimators"][estimator.name]);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string details_board(const RunDetails& details) {
+  std::vector<TextRow> map = {{"map", "missed", "spurious", "duplicate", "from robot [m]", "pose inside [%]",
+                               "of", "map inside [%]"}};
+  std::vector<TextRow> path = {{"RPE along path"}};
+  for (const double distance : details.choices.distances) {
+    path.front().push_back(fmt::format("{} m [m]", distance));
+    path.front().emplace_back("[deg]");
+  }
+  std::vector<TextRow> closure = {{"updates since closure", "before"}};
+  for (std::size_t i = 1; i < response_updates.size(); ++i)
+    closure.front().push_back(fmt::format("{}", response_updates[i]));
+  const auto add_moving = [&](const EstimatorDetails& estimator) {
+    path.push_back(path_row(estimator));
+    closure.push_back(closure_row(estimator));
+  };
+  for (const EstimatorDetails& estimator : details.estimators) {
+    map.push_back(map_row(estimator));
+    add_moving(estimator);
+  }
+  add_moving(details.odometry);
+  std::string text = text_table(map) + '\n' + text_table(path);
+  if (details.closures == 0) return text + "\nNo loop closes.\n";
+  return text +
+         fmt::format("\nError of the position [m], {} closures\n{}", details.closures, text_table(closure));
+}
+
+}  // namespace harness

@@ -1,0 +1,25 @@
+// Which landmarks of the world a map has, and what else it has. Definitions: docs/scores.md.
+#pragma once
+
+#include <set>
+#include <span>
+
+#include "harness/run_listener.hpp"
+#include "harness/stream.hpp"
+
+namespace harness {
+
+struct MapCounts {
+  int missed = 0;     // [-] landmarks that were seen, and are not in the map
+  int spurious = 0;   // [-] in the map, and not in the world
+  int duplicate = 0;  // [-] of the spurious: those where the map has a landmark of the world already
+};
+
+/// How near to a landmark a second one is its duplicate, once the map lies on the world. [m]
+inline constexpr double duplicate_radius = 0.5;
+
+/// `truth` is sorted by id. `seen` are the ids of the landmarks of the world that any scan holds.
+MapCounts count_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth,
+                          const std::set<seif::LandmarkId>& seen);
+
+}  // namespace harness

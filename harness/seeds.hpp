@@ -1,0 +1,18 @@
+// Lists of seeds as people write them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace harness {
+
+/// "1..3,7" means 1, 2, 3 and 7: ascending, each once. Throws BadInput.
+std::vector<std::uint64_t> parse_seeds(std::string_view text);
+
+/// The shortest text that means these seeds, which are ascending.
+std::string seeds_text(std::span<const std::uint64_t> seeds);
+
+}  // namespace harness

@@ -1,0 +1,104 @@
+#include "harness/sweep/cells.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+namespace harness {
+
+namespace {
+
+constexpr const char* done = ".json";
+constexpr const char* failed = ".failed";
+constexpr const char* unfinished = ".unfinished";
+
+/// Where this process writes what is to become `path`. No other that lives has the same name for it.
+std::filesystem::path part_of(const std::filesystem::path& path) {
+  std::array<char, 256> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+  const std::filesystem::path part =
+      fmt::format("{}.{}-{}{}", path.string(), host.data(), getpid(), unfinished);
+  std::filesystem::remove(part);
+  return part;
+}
+
+/// Names are on the disk when their folder is.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_synced)
+    throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", folder.string()));
+}
+
+/// The index that the name of a file says.
+std::optional<std::size_t> index_of(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
+  if (error != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
+  return index;
+}
+
+}  // namespace
+
+DurableFile::DurableFile(std::filesystem::path path) : path_(std::move(path)), file_(part_of(path_)) {}
+
+void DurableFile::commit() {
+  file_.sync();
+  file_.close();
+  std::filesystem::rename(file_.path(), path_);
+  sync_folder(path_.parent_path());
+}
+
+void write_durable_file(const std::filesystem::path& path, std::string_view text) {
+  DurableFile file(path);
+  file.append(text);
+  file.commit();
+}
+
+void remove_unfinished_files(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == unfinished) std::filesystem::remove(entry.path());
+  }
+}
+
+std::vector<CellState> CellFolder::states(std::size_t count) const {
+  std::vector<CellState> states(count, CellState::open);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    const std::optional<std::size_t> index = index_of(entry.path());
+    if (!index || *index >= count) continue;
+    if (entry.path().extension() == done) {
+      states[*index] = CellState::done;
+    } else if (entry.path().extension() == failed && states[*index] == CellState::open) {
+      states[*index] = CellState::failed;
+    }
+  }
+  return states;
+}
+
+std::string CellFolder::result(std::size_t index) const { return read_whole_file(path(index, done)); }
+
+std::string CellFolder::failure(std::size_t index) const { return read_whole_file(path(index, failed)); }
+
+void CellFolder::put_result(std::size_t index, std::string_view text) const {
+  write_durable_file(path(index, done), text);
+  std::filesystem::remove(path(index, failed));
+}
+
+void CellFolder::put_failure(std::size_t index, std::string_view reason) const {
+  write_durable_file(path(index, failed), reason);
+}
+
+std::filesystem::path CellFolder::path(std::size_t index, const char* extension) const {
+  return folder_ / fmt::format("{:06}{}", index, extension);
+}
+
+}  // namespace harness

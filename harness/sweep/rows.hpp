@@ -1,0 +1,28 @@
+// What a cell of a sweep says of each estimator, as rows of named values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace harness {
+
+/// A value of a summary; nested ones have joined names, as in `blocks_touched_p50`.
+struct NamedValue {
+  std::string name;
+  std::string text;              // as in summary.json; empty: there is none
+  std::optional<double> number;  // nothing for text too
+};
+
+/// An estimator in a run, or `odometry`.
+struct EstimatorRow {
+  std::string estimator;
+  std::string failure;             // empty: none
+  std::vector<NamedValue> scores;  // the same whenever the run is repeated
+  std::vector<NamedValue> times;   // what was measured with a clock
+};
+
+/// Of a summary.json. Throws BadInput, which names `file`, if it is none.
+std::vector<EstimatorRow> rows_of(const std::string& summary, const std::string& file);
+
+}  // namespace harness

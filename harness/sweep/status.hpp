@@ -1,0 +1,27 @@
+// How far a sweep is.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "harness/sweep/aggregate.hpp"
+#include "harness/sweep/folder.hpp"
+
+namespace harness {
+
+struct SweepStatus {
+  std::size_t done = 0;
+  std::size_t open = 0;
+  std::vector<FailedCell> failed;
+};
+
+SweepStatus status_of(const SweepFolder& sweep);
+
+/// A line of counts, and one for each of the first that failed.
+std::string to_text(const SweepFolder& sweep, const SweepStatus& status);
+
+/// A line for each of the first cells that failed, and how many more did.
+std::string failed_lines(const SweepPlan& plan, const std::vector<FailedCell>& failed);
+
+}  // namespace harness

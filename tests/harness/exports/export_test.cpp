@@ -1,0 +1,167 @@
+// Exports against values by hand, and against the optimum that the harness finds itself.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "harness/command_call.hpp"
+#include "harness/exports/graph.hpp"
+#include "harness/exports/trajectories.hpp"
+#include "harness/fixtures.hpp"
+
+namespace harness {
+namespace {
+
+using test::read_file;
+using test::write_file;
+
+/// Lines by their first word, as numbers.
+std::map<std::string, std::vector<std::vector<double>>> parse(const std::string& g2o) {
+  std::map<std::string, std::vector<std::vector<double>>> lines;
+  std::istringstream text(g2o);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line);
+    std::string tag;
+    words >> tag;
+    std::vector<double>& numbers = lines[tag].emplace_back();
+    for (double number = 0.0; words >> number;) numbers.push_back(number);
+    EXPECT_TRUE(words.eof()) << line;
+  }
+  return lines;
+}
+
+void expect_near(const std::vector<double>& values, const std::vector<double>& wanted) {
+  ASSERT_EQ(values.size(), wanted.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_NEAR(values[i], wanted[i], 1e-9 * std::max(1.0, std::abs(wanted[i]))) << i;
+}
+
+/// Two motions to the first scan, one to the second; landmark 7 is seen from both, and 3 from the second.
+void write_log(const std::filesystem::path& log) {
+  std::filesystem::create_directories(log);
+  write_file(log / "log.yaml",
+             "name: small\nassociation: known\nsensor_mount: {x_m: 0.5, y_m: 0, theta_rad: 0}\n"
+             "range_sd_m: 0.1\nbearing_sd_rad: 0.1\n"
+             "start: {t_s: 0, x_m: 1, y_m: 2, theta_rad: 0, cov_xx: 0.01, cov_yy: 0.01, cov_tt: 0.01}\n");
+  write_file(log / "odometry.csv",
+             "t,dx,dy,dtheta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt\n"
+             "1,1,0,0,0.04,0,0,0.01,0,0\n"
+             "2,1,0,0,0.04,0,0,0.01,0,0.25\n"
+             "3,2,0,1,0.25,0,0,0.25,0,0.25\n");
+  write_file(log / "observations.csv",
+             "t,landmark,range,bearing\n2,7,2,1.5707963267948966\n3,7,1,0\n3,3,4,0\n");
+  write_file(log / "filter.tum", "2 3.1 2 0 0 0 0 1\n3 5 2.2 0 0 0 0.479425538604203 0.8775825618903728\n");
+  write_file(log / "filter_map.csv", "landmark,x,y,cov_xx,cov_xy,cov_yy\n7,3.5,4.1,,,\n3,8,9,,,\n");
+}
+
+TEST(G2o, MatchesTheHandComputedCase) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  auto lines = parse(to_g2o(read_graph(folder / "log", "filter")));
+  ASSERT_EQ(lines["VERTEX_SE2"].size(), 3U);
+  expect_near(lines["VERTEX_SE2"][0], {0, 1, 2, 0});
+  expect_near(lines["VERTEX_SE2"][1], {1, 3.1, 2, 0});
+  expect_near(lines["VERTEX_SE2"][2], {2, 5, 2.2, 1});
+  ASSERT_EQ(lines["VERTEX_XY"].size(), 2U);
+  expect_near(lines["VERTEX_XY"][0], {3, 3.5, 4.1});
+  expect_near(lines["VERTEX_XY"][1], {4, 8, 9});
+  expect_near(lines["FIX"][0], {0});
+  // Twice a metre ahead, each with variances 0.04 and 0.01; the first has no uncertainty of the heading that
+  // would turn the second.
+  ASSERT_EQ(lines["EDGE_SE2"].size(), 2U);
+  expect_near(lines["EDGE_SE2"][0], {0, 1, 2, 0, 0, 1 / 0.08, 0, 0, 1 / 0.02, 0, 1 / 0.25});
+  expect_near(lines["EDGE_SE2"][1], {1, 2, 2, 0, 1, 4, 0, 0, 4, 0, 4});
+  // The sensor is 0.5 m ahead. At 2 m to the left the range errs along y by 0.1 m, the bearing along x by 2 *
+  // 0.1.
+  ASSERT_EQ(lines["EDGE_SE2_XY"].size(), 3U);
+  expect_near(lines["EDGE_SE2_XY"][0], {1, 3, 0.5, 2, 25, 0, 100});
+  expect_near(lines["EDGE_SE2_XY"][1], {2, 3, 1.5, 0, 100, 0, 100});
+  expect_near(lines["EDGE_SE2_XY"][2], {2, 4, 4.5, 0, 100, 0, 1 / 0.16});
+}
+
+TEST(G2o, WhatTheEstimatorDoesNotHaveComesFromWhatWasMeasured) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  write_file(folder / "log" / "filter.tum", "2 3.1 2 0 0 0 0 1\n");
+  write_file(folder / "log" / "filter_map.csv", "landmark,x,y,cov_xx,cov_xy,cov_yy\n");
+  auto lines = parse(to_g2o(read_graph(folder / "log", "filter")));
+  expect_near(lines["VERTEX_SE2"][2], {2, 5.1, 2, 1});
+  expect_near(lines["VERTEX_XY"][0], {3, 3.6, 4});
+}
+
+TEST(G2o, ARobotThatStandsMakesNoPose) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  write_file(folder / "log" / "odometry.csv",
+             "t,dx,dy,dtheta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt\n"
+             "1,1,0,0,0.04,0,0,0.01,0,0.1\n3,0,0,0,0,0,0,0,0,0\n");
+  auto lines = parse(to_g2o(read_graph(folder / "log", "filter")));
+  EXPECT_EQ(lines["VERTEX_SE2"].size(), 2U);
+  EXPECT_EQ(lines["EDGE_SE2"].size(), 1U);
+  EXPECT_EQ(lines["EDGE_SE2_XY"][2][0], 1.0);
+}
+
+/// The file alone, read without any code of the exporter's, weighs the optimum's landmarks as seen from its
+/// poses: their squared errors are a chi-square's.
+TEST(G2o, TheOptimumFitsItsEdges) {
+  const TemporaryFolder folder;
+  test::run_live(test::small_world(), folder / "run");
+  RecordedGraph graph = read_graph(folder / "run", "ekf");
+  const FullSlamOptimum best = optimum(graph.slam, graph.poses, graph.landmarks);
+  auto lines = parse(to_g2o(graph));
+  double sum = 0.0;
+  for (const std::vector<double>& edge : lines["EDGE_SE2_XY"]) {
+    const seif::Pose2& pose = best.poses.at(static_cast<std::size_t>(edge[0]));
+    const auto landmark = static_cast<std::size_t>(edge[1]) - best.poses.size();
+    const Eigen::Vector2d error =
+        inverse(pose) * best.landmarks.at(landmark) - Eigen::Vector2d(edge[2], edge[3]);
+    Eigen::Matrix2d information;
+    information << edge[4], edge[5], edge[5], edge[6];
+    sum += error.dot(information * error);
+  }
+  const auto count = static_cast<double>(2 * lines["EDGE_SE2_XY"].size());
+  ASSERT_GT(count, 500.0);
+  // Fitting takes away at most as many degrees of freedom as there are unknowns; five sigma besides.
+  const auto unknowns = static_cast<double>(3 * best.poses.size() + 2 * best.landmarks.size());
+  EXPECT_GT(sum, count - unknowns - 5.0 * std::sqrt(2.0 * count));
+  EXPECT_LT(sum, count + 5.0 * std::sqrt(2.0 * count));
+}
+
+TEST(TrajectoriesCsv, HasARowForEachUpdateAndEmptyCellsWhereNothingIsKnown) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  write_file(folder / "log" / "odometry.tum", "2 3 2 0 0 0 0 1\n3 5 2 0 0 0 0 1\n");
+  write_file(folder / "log" / "filter.tum", "2 3.1 2 0 0 0 0 1\n");
+  write_file(folder / "log" / "truth.csv", "t,x,y,theta\n1,0,0,0\n3,2,0,1\n");
+  const std::vector<std::string> names = {"filter"};
+  EXPECT_EQ(trajectories_csv(folder / "log", names),
+            "t,true_x,true_y,true_theta,odometry_x,odometry_y,odometry_theta,filter_x,filter_y,filter_theta\n"
+            "2,1,0,0.5,3,2,0,3.1,2,0\n"
+            "3,2,0,1,5,2,0,,,\n");
+}
+
+TEST(ExportCommand, WritesEachFormatAndRefusesWhatIsNotThere) {
+  const TemporaryFolder folder;
+  test::run_live(test::small_world(), folder / "run");
+  EXPECT_EQ(test::call(folder, "export run --format tum --estimator truth").output,
+            read_file(folder / "run" / "truth.tum"));
+  EXPECT_EQ(test::call(folder, "export run --format tum").output, read_file(folder / "run" / "ekf.tum"));
+  EXPECT_EQ(test::call(folder, "export run --format csv").output.substr(0, 9), "t,true_x,");
+  EXPECT_EQ(test::call(folder, "export run --format g2o --out graph.g2o").exit_code, 0);
+  EXPECT_EQ(read_file(folder / "graph.g2o"), to_g2o(read_graph(folder / "run", "ekf")));
+  for (const auto& [arguments, complaint] : std::map<std::string, std::string>{
+           {"run --format g2o --out graph.g2o", "graph.g2o: is there already"},
+           {"run --format g2o --estimator truth", "the run has no 'truth'; it has ekf, seif_report"},
+           {"run --format obj", "obj"},
+           {"run", "--format"},
+           {"nothing --format csv", "nothing/summary.json: cannot be read"}}) {
+    const test::Called called = test::call(folder, "export " + arguments);
+    EXPECT_EQ(called.exit_code, 2) << arguments;
+    EXPECT_NE(called.errors.find(complaint), std::string::npos) << called.errors;
+  }
+}
+
+}  // namespace
+}  // namespace harness
