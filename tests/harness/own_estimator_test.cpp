@@ -119,8 +119,9 @@ TEST(OwnEstimator, IsUsedByAWorldFileUnderItsNameAndScored) {
 
 TEST(OwnEstimator, HasItsOptionsChecked) {
   const TemporaryFolder folder;
-  std::string text = world_file;
-  text.replace(text.find("0.1"), 3, std::string_view("-1"));
+  const std::string good = world_file;
+  const std::size_t option = good.find("0.1");
+  const std::string text = good.substr(0, option) + "-1" + good.substr(option + 3);
   const worlds::LoadResult loaded = load(folder, text);
   EXPECT_FALSE(loaded.world);
   ASSERT_EQ(loaded.problems.size(), 1U);
