@@ -89,17 +89,16 @@ void CondensationTree::mark_stale(const InformationState& state, int at) {
 }
 
 /// Nodes with a group in their fronts that the next zone is too near to, and what depends on them.
-bool CondensationTree::mark_expired(const InformationState& state, int at) {
+void CondensationTree::mark_expired(const InformationState& state, int at) {
   const Node& n = node(at);
   const bool changes = n.stale_since == epoch_;
   const auto enters = [&](int leaf) { return n.reach.intersects(tree_.box(leaf)); };
-  if (!changes && std::ranges::none_of(next_hot_, enters)) return false;
+  if (!changes && std::ranges::none_of(next_hot_, enters)) return;
   if (!changes &&
       std::ranges::any_of(n.groups, [&](int g) { return distance_ratio(g) < 0.5 * options_.grain; })) {
     mark_stale(state, at);
   }
   tree_.for_each_source(at, [&](int source) { mark_expired(state, source); });
-  return true;
 }
 
 /// The groups of a boundary that has been read.
@@ -112,14 +111,14 @@ void CondensationTree::note_groups(const Condensed& message) {
 void CondensationTree::reserve_boundary(Eigen::Index rows) {
   if (rows <= part_step_.size()) return;
   part_step_.resize(2 * rows);
-  gradient_.resize(2 * rows);
+  part_residual_.resize(2 * rows);
 }
 
 /// What a message holds of the residual of its boundary, as that is now.
 Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const Condensed& message) {
   reserve_boundary(message.b);
   auto d = part_step_.head(message.b);
-  auto r = gradient_.head(message.b);
+  auto r = part_residual_.head(message.b);
   step_of(message, d);
   message.residual(d, r);
   blocks_touched_ += message.blocks();

@@ -1,7 +1,7 @@
 // Recovers the mean exactly: what lies far from the robot is condensed along a tree, once, and follows when
 // somebody looks.
 //
-//           o            Landmarks live in leaves of about a dozen. Those about the robot are hot (*): their
+//           o            Landmarks live in leaves of eight or so. Those about the robot are hot (*): their
 //        /     \         landmarks stand in the hub (HotZone). Every other node sends one message towards
 //      hub      o        the hub: the information of what lies behind it, after elimination of all that
 //     /   \    / \       nothing before it has a block with (Front). So a message changes only if a leaf
@@ -9,10 +9,13 @@
 //
 // Omega changes in the window alone, and the window is hot. So an update solves for robot and active
 // landmarks with Omega + S, S what hub and messages know of them: the exact mean of all Omega. The others
-// follow by what their elimination has left. seif/README.md has more of it.
+// follow by what their elimination has left. Where a front would grow too large, landmarks far from the robot
+// are tied to groups that move as one; what pulls at them is kept, and taken in once they are untied.
+// seif/README.md has more of it.
 //
 // Glossary: a leaf owns a block Omega_ij if it is the older of the leaves of i and j; it mentions the
 //           landmarks of its blocks. A landmark is complete where all leaves that mention it have met.
+//           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
 #include <optional>
@@ -35,7 +38,8 @@ struct CondensationOptions {
   double grain = 0.25;  // [-] distance over size of the coarsest groups
 };
 
-/// All r of passive landmarks are zero at the means that it tells; the state holds stale ones.
+/// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
+/// holds stale ones.
 class CondensationTree {
  public:
   explicit CondensationTree(const CondensationOptions& options) : options_(options) {}
@@ -83,7 +87,7 @@ class CondensationTree {
   bool send_stale(InformationState& state, int hub);
   void mark_changed_leaves();
   void mark_stale(const InformationState& state, int at);
-  bool mark_expired(const InformationState& state, int at);
+  void mark_expired(const InformationState& state, int at);
   double distance_ratio(int group);
   void note_zone_residual(const InformationState& state);
   void take_from_loose(int at);
@@ -118,6 +122,7 @@ class CondensationTree {
   int node_of(FrontVariable v) const;
   bool fill_zone(InformationState& state);
   void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& s);
+
   CondensationOptions options_;
   LeafTree tree_;
   ChunkedArray<Node> nodes_;
@@ -133,14 +138,14 @@ class CondensationTree {
   mutable std::int64_t zone_read_at_ = 0;
   mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
   int scan_ = 0, visit_ = 0;
-  bool groups_allowed_ = true;
-  int fronts_ = 0, counts_ = 0;
-  bool any_present_ = false;
-  std::vector<int> stale_;  // nodes, as the zone moves
-  std::vector<int> targets_;
-  Eigen::MatrixXd M_;                     // (w x w), with room to grow
-  Eigen::VectorXd part_step_, gradient_;  // with room to grow
-  Eigen::VectorXd step_, change_;         // (w), with room to grow
+  std::vector<int> stale_;       // nodes, as the zone moves
+  bool groups_allowed_ = true;   // to be begun
+  int fronts_ = 0, counts_ = 0;  // [-] so far: marks of groups
+  bool any_present_ = false;     // groups in the front, by what others have sent
+  std::vector<int> targets_;     // by variable of the front: the node whose group it is tied to, or none
+  Eigen::MatrixXd M_;            // (w x w), with room to grow
+  Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
+  Eigen::VectorXd step_, change_;              // (w), with room to grow
   std::int64_t blocks_touched_ = 0;
 };
 
