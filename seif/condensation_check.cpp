@@ -54,6 +54,12 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
       };
       if (std::ranges::any_of(hot_leaves_, used_in)) return broken("group ", g, " in node ", i, " is hot");
       if (node(g).group.fronts <= 0) return broken("group ", g, " is counted wrong");
+      const auto is_beside = [&](FrontVariable v) {
+        return node_of(v) != g && tree_.is_within(node_of(v), g);
+      };
+      if (std::ranges::any_of(message.eliminated, is_beside) ||
+          std::ranges::any_of(message.boundary, is_beside, &Condensed::Member::variable))
+        return broken("node ", i, " has landmarks beside their group ", g);
     }
   }
   return std::nullopt;

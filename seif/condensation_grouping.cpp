@@ -24,17 +24,18 @@ double CondensationTree::distance_ratio(int group) {
 }
 
 /// The node of the largest group that a variable of the front may be tied to, or none. Where a part of the
-/// front has it in a group already, it goes where that goes.
+/// front has it in a group already, it goes where that goes. Whether a group may be is the same for all that
+/// stand below its node: a front has all of them in it, or none.
 int CondensationTree::group_for(FrontVariable v, double ratio) {
   if (!is_group(v) && node(place(v).leaf).hot) return none;
   const bool may_be_tied = groups_allowed_ && ratio < std::numeric_limits<double>::infinity();
   int chosen = none;
-  bool is_far = may_be_tied;
   for (int n = node_of(v); n != none; n = tree_.parent(n)) {
     const LandmarkGroup& group = node(n).group;
     const bool is_present = group.present_in == fronts_;
-    is_far = (is_far || (is_present && may_be_tied)) && distance_ratio(n) >= ratio;
-    if (!is_far && !any_present_) break;
+    const bool is_far = may_be_tied && distance_ratio(n) >= ratio;
+    // A leaf may be wider than the rectangles above it, and nearer.
+    if (!is_far && !any_present_ && !tree_.is_leaf(n)) break;
     if (is_present || (is_far && (group.fronts == 0 || group.known == epoch_))) chosen = n;
   }
   return chosen;

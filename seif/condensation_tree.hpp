@@ -42,7 +42,8 @@ struct CondensationOptions {
 /// holds stale ones.
 class CondensationTree {
  public:
-  explicit CondensationTree(const CondensationOptions& options) : options_(options) {}
+  CondensationTree(const CondensationOptions& options, const Pose2& start)
+      : options_(options), tree_(start) {}
 
   /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
   /// are now. False if a matrix is not positive definite, as below.

@@ -8,7 +8,8 @@
 namespace seif {
 namespace {
 
-constexpr double cell = 4.0;  // [m] finer places are not told apart
+constexpr int most_branches = 8;  // [-] that are begun in one rectangle
+constexpr double cell = 4.0;      // [m] finer places are not told apart
 constexpr double turn =
     0.46;  // [rad] of the grid: corridors that run along its lines would change sides often
 
@@ -25,11 +26,9 @@ std::uint64_t cell_of(double coordinate) {
   return static_cast<std::uint64_t>(std::clamp(coordinate / cell + half, 0.0, 2.0 * half - 1.0));
 }
 
-Eigen::Rotation2Dd grid_from_world() { return Eigen::Rotation2Dd(turn); }
-
-/// The cell of a place, by both coordinates' bits in turns, and then what tells it from others there.
-std::uint64_t key_of(const Eigen::Vector2d& place, int leaf) {
-  const Eigen::Vector2d p = grid_from_world() * place;
+/// The cell of a place of the grid, by both coordinates' bits in turns, and then what tells it from others
+/// there.
+std::uint64_t key_of(const Eigen::Vector2d& p, int leaf) {
   return (spread_bits(cell_of(p.x())) << 1 | spread_bits(cell_of(p.y()))) << 32 |
          static_cast<std::uint64_t>(leaf);
 }
@@ -56,6 +55,12 @@ LeafTree::Box rectangle_of(std::uint64_t key, int bit) {
 
 }  // namespace
 
+LeafTree::LeafTree(const Pose2& start) : T_world_grid_(start * Pose2{.theta = -turn}) {}
+
+Eigen::Vector2d LeafTree::in_grid(const Eigen::Vector2d& place) const {
+  return inverse(T_world_grid_) * place;
+}
+
 int LeafTree::add_node() {
   nodes_.push_back({});
   return size() - 1;
@@ -63,19 +68,24 @@ int LeafTree::add_node() {
 
 int LeafTree::add_leaf(const Eigen::Vector2d& place) {
   const int leaf = add_node();
-  const std::uint64_t key = at(leaf).key = key_of(place, leaf);
+  const std::uint64_t key = at(leaf).key = key_of(in_grid(place), leaf);
   if (root_ == none) {
     root_ = hub_ = leaf;
     return leaf;
   }
   int sibling = root_;
   const auto differ_at = [&] { return static_cast<int>(std::bit_width(at(sibling).key ^ key)) - 1; };
-  while (differ_at() < at(sibling).bit) sibling = at(sibling).child[key >> at(sibling).bit & 1U];
+  const auto is_below = [&] {
+    const int bit = differ_at();
+    return bit < at(sibling).bit || (bit == at(sibling).bit && at(sibling).branches == most_branches);
+  };
+  while (is_below()) sibling = at(sibling).child[key >> at(sibling).bit & 1U];
   const int bit = differ_at();
   const int inner = insert_above(sibling);
   const std::size_t side = key >> bit & 1U;
   at(inner).key = key;
   at(inner).bit = bit;
+  at(inner).branches = at(sibling).bit == bit ? at(sibling).branches + 1 : 1;
   at(inner).box = rectangle_of(key, bit);
   at(inner).child[side] = leaf;
   at(inner).child[1 - side] = sibling;
@@ -105,18 +115,16 @@ int LeafTree::insert_above(int below) {
 }
 
 bool LeafTree::is_within(int node, int ancestor) const {
-  const int bit = at(ancestor).bit;
-  if (bit == none) return node == ancestor;
-  return at(node).bit <= bit && (at(node).key ^ at(ancestor).key) >> bit < 2;
+  int n = node;
+  while (n != ancestor && n != none && at(n).bit <= at(ancestor).bit) n = at(n).parent;
+  return n == ancestor;
 }
 
 Eigen::Vector2d LeafTree::centre(int node) const {
-  return grid_from_world().inverse() * Eigen::Vector2d(box(node).center());
+  return T_world_grid_ * Eigen::Vector2d(box(node).center());
 }
 
-void LeafTree::widen(int leaf, const Eigen::Vector2d& place) {
-  at(leaf).box.extend(Eigen::Vector2d(grid_from_world() * place));
-}
+void LeafTree::widen(int leaf, const Eigen::Vector2d& place) { at(leaf).box.extend(in_grid(place)); }
 
 int LeafTree::common_ancestor(std::span<const int> leaves) {
   assert(!leaves.empty());

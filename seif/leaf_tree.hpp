@@ -12,6 +12,10 @@
 // of the plane, and an inner node stands for the rectangle of its leaves. So places that are near to each
 // other mostly are so in the tree, in whatever order they come, and nothing has to be balanced.
 //
+// A leaf that lies in the other half of a rectangle than the last one begins a new branch there, above all
+// older ones, some times: so what a robot comes by in one go stays together as well, and in an area that it
+// sweeps fewer landmarks lie on the border of a branch than on that of a rectangle.
+//
 //   towards(n): the neighbour of n, parent or child, on its way to the hub.
 #pragma once
 
@@ -22,12 +26,16 @@
 #include <vector>
 
 #include "seif/chunked_array.hpp"
+#include "seif/types.hpp"
 
 namespace seif {
 
 class LeafTree {
  public:
   static constexpr int none = -1;
+
+  /// The grid lies where the robot starts, so that nothing depends on where the world has its origin.
+  explicit LeafTree(const Pose2& start);
 
   /// Adds a leaf; returns its node. The first one is the hub. An inner node may be added too, between the
   /// leaf and all others.
@@ -85,15 +93,18 @@ class LeafTree {
     Box box;
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
+    int branches = 0;       // [-] begun in its rectangle, so far down
     int marks = 0;          // of the leaves that common_ancestor() has gone up from
     int mark = 0;           // of which of its calls
   };
 
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
   const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  Eigen::Vector2d in_grid(const Eigen::Vector2d& place) const;
   int add_node();
   int insert_above(int below);
 
+  Pose2 T_world_grid_;
   ChunkedArray<Node> nodes_;
   int root_ = none;
   int hub_ = none;

@@ -19,7 +19,7 @@ Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
     : options_(options),
       state_(setup.start),
       mean_(options.multilevel),
-      tree_(options.tree),
+      tree_(options.tree, setup.start.mean),
       by_tree_(options.mean_recovery == SeifMean::tree),
       T_robot_sensor_(setup.T_robot_sensor) {
   if (options_.first_estimates > 0) state_.use_first_estimates(options_.first_estimates);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "seif/front.hpp"
@@ -257,7 +258,7 @@ int steps_to_hub(const LeafTree& tree, int from) {
 }
 
 TEST(LeafTree, EveryWayLeadsToTheHubWhereverItMoves) {
-  LeafTree tree;
+  LeafTree tree{Pose2{}};
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
   std::vector<int> leaves;
@@ -273,20 +274,34 @@ TEST(LeafTree, EveryWayLeadsToTheHubWhereverItMoves) {
   }
 }
 
+int depth(const LeafTree& tree, int node) {
+  int steps = 0;
+  for (int n = tree.parent(node); n != LeafTree::none; n = tree.parent(n)) ++steps;
+  return steps;
+}
+
 TEST(LeafTree, IsNoDeeperThanTheLogarithmOfALongCorridorAsks) {
-  LeafTree tree;
-  std::vector<int> leaves;
-  std::vector<int> way;
-  const int count = 4096;
-  for (int k = 0; k < count; ++k) leaves.push_back(tree.add_leaf({12.0 * k, 0.0}));
-  tree.move_hub(tree.common_ancestor(leaves), way);
+  LeafTree tree{Pose2{}};
   int deepest = 0;
-  for (const int leaf : leaves) deepest = std::max(deepest, steps_to_hub(tree, leaf));
+  for (int k = 0; k < 4096; ++k) tree.add_leaf({12.0 * k, 0.0});
+  for (int n = 0; n < tree.size(); ++n) deepest = std::max(deepest, depth(tree, n));
   EXPECT_LE(deepest, 24);  // twice log2(4096): both coordinates grow along it
 }
 
-TEST(LeafTree, AnInnerNodeStandsForARectangleThatLeavesOutsideOfItAreNotIn) {
-  LeafTree tree;
+TEST(LeafTree, IsNoDeeperThanTheLogarithmOfAnAreaAsks) {
+  LeafTree tree{Pose2{}};
+  const int lanes = 96;
+  for (int i = 0; i < lanes * lanes; ++i) {
+    const int along = i % lanes;
+    tree.add_leaf({8.0 * (i / lanes % 2 == 0 ? along : lanes - along), 8.0 * (i / lanes)});
+  }
+  int deepest = 0;
+  for (int n = 0; n < tree.size(); ++n) deepest = std::max(deepest, depth(tree, n));
+  EXPECT_LE(deepest, 39);  // three times log2(96 * 96); with a branch for each lane it would be 96 and more
+}
+
+/// Leaves here and there, each as wide as a place.
+std::vector<int> scatter_leaves(LeafTree& tree) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> coordinate(-80.0, 80.0);
   std::vector<int> leaves;
@@ -295,16 +310,30 @@ TEST(LeafTree, AnInnerNodeStandsForARectangleThatLeavesOutsideOfItAreNotIn) {
     leaves.push_back(tree.add_leaf(place));
     tree.widen(leaves.back(), place);
   }
-  for (int n = 0; n < tree.size(); ++n) {
-    if (tree.is_leaf(n) || tree.box(n).sizes().minCoeff() < 8.0) continue;  // [m] one cell holds many leaves
-    for (const int leaf : leaves) {
-      EXPECT_EQ(tree.is_within(leaf, n), tree.box(n).contains(tree.box(leaf))) << leaf << " in " << n;
+  return leaves;
+}
+
+TEST(LeafTree, WhatStandsBelowANodeLiesInItsRectangle) {
+  LeafTree tree{Pose2{}};
+  for (const int leaf : scatter_leaves(tree)) {
+    for (int n = tree.parent(leaf); n != LeafTree::none; n = tree.parent(n)) {
+      EXPECT_TRUE(tree.box(n).contains(tree.box(leaf))) << leaf << " in " << n;
     }
   }
 }
 
+TEST(LeafTree, ANodeIsWithinThoseAboveIt) {
+  LeafTree tree{Pose2{}};
+  scatter_leaves(tree);
+  for (int n = 0; n < tree.size(); ++n) {
+    std::set<int> above{n};
+    for (int i = tree.parent(n); i != LeafTree::none; i = tree.parent(i)) above.insert(i);
+    for (int i = 0; i < tree.size(); ++i) EXPECT_EQ(tree.is_within(n, i), above.contains(i));
+  }
+}
+
 TEST(LeafTree, HoldsAnyNumberOfLeavesAtOnePlace) {
-  LeafTree tree;
+  LeafTree tree{Pose2{}};
   std::vector<int> leaves;
   for (int k = 0; k < 50; ++k) leaves.push_back(tree.add_leaf({1.0, 2.0}));
   EXPECT_EQ(tree.size(), 99);

@@ -25,7 +25,7 @@ using test::RingDrive;
 /// One filter twice: with the tree, and with all Omega solved wherever the tree solves.
 struct Twins {
   explicit Twins(const PoseEstimate& start, const CondensationOptions& options = {}, bool follows = false)
-      : state(start), exact(start), tree(options), exact_follows(follows) {
+      : state(start), exact(start), tree(options, start.mean), exact_follows(follows) {
     state.use_first_estimates(5);
     exact.use_first_estimates(5);
   }
