@@ -13,12 +13,13 @@ int CondensationTree::node_of(FrontVariable v) const { return is_group(v) ? ~v :
 /// How far a group is from the next hot leaves, over its size.
 double CondensationTree::distance_ratio(int group) {
   Node& n = node(group);
-  if (n.distance_known == epoch_) return n.distance_ratio;
+  if (n.distance_known_in == plan_.number) return n.distance_ratio;
   const LeafTree::Box& box = tree_.box(group);
   double squared = std::numeric_limits<double>::infinity();
-  for (const int leaf : next_hot_) squared = std::min(squared, box.squaredExteriorDistance(tree_.box(leaf)));
+  for (const int leaf : plan_.hot_leaves)
+    squared = std::min(squared, box.squaredExteriorDistance(tree_.box(leaf)));
   const double size = box.diagonal().norm();
-  n.distance_known = epoch_;
+  n.distance_known_in = plan_.number;
   n.distance_ratio = squared > 0.0 ? std::sqrt(squared) / size : 0.0;
   return n.distance_ratio;
 }
@@ -27,7 +28,7 @@ double CondensationTree::distance_ratio(int group) {
 /// front has it in a group already, it goes where that goes. Whether a group may be is the same for all that
 /// stand below its node: a front has all of them in it, or none.
 int CondensationTree::group_for(FrontVariable v, double ratio) {
-  if (!is_group(v) && node(place(v).leaf).hot) return none;
+  if (!is_group(v) && node(place(v).leaf).next_hot) return none;
   const bool may_be_tied = groups_allowed_ && ratio < std::numeric_limits<double>::infinity();
   int chosen = none;
   for (int n = node_of(v); n != none; n = tree_.parent(n)) {
@@ -36,7 +37,7 @@ int CondensationTree::group_for(FrontVariable v, double ratio) {
     const bool is_far = may_be_tied && distance_ratio(n) >= ratio;
     // A leaf may be wider than the rectangles above it, and nearer.
     if (!is_far && !any_present_ && !tree_.is_leaf(n)) break;
-    if (is_present || (is_far && (group.fronts == 0 || group.known == epoch_))) chosen = n;
+    if (is_present || (is_far && (group.fronts == 0 || group.known_in == plan_.number))) chosen = n;
   }
   return chosen;
 }
@@ -74,13 +75,12 @@ int CondensationTree::count_unknowns(double ratio) {
 }
 
 /// From the finest groups that suffice to the coarsest that are allowed.
-void CondensationTree::tie_front(const InformationState& state, int at) {
+void CondensationTree::tie_front(const InformationState& state, int at, SentMessage& next) {
   ++fronts_;
-  std::vector<int>& groups = node(at).groups;
-  for (const int g : groups) --node(g).group.fronts;
+  std::vector<int>& groups = next.groups;
   groups.clear();
-  node(at).reach.setEmpty();
-  if (tree_.is_leaf(at) && !node(at).hot) return;
+  next.reach.setEmpty();
+  if (tree_.is_leaf(at) && !node(at).next_hot) return;
   any_present_ = false;
   int unknowns = 0;
   for (const Front::Variable& v : front_.variables()) {
@@ -100,7 +100,7 @@ void CondensationTree::tie_front(const InformationState& state, int at) {
       if (targets_[i] != none) tie(state, i, targets_[i], groups);
     }
   }
-  note_reach(at);
+  note_reach(at, next);
 }
 
 /// The levers are those of the Jacobians (InformationState::use_first_estimates): Omega knows nothing of
@@ -111,10 +111,10 @@ void CondensationTree::tie(const InformationState& state, std::size_t index, int
   if (group.present_in != fronts_) {
     group.present_in = fronts_;
     groups.push_back(target);
-    if (group.fronts == 0 && group.known != epoch_) {
+    if (group.fronts == 0 && group.known_in != plan_.number) {
       group.centre = tree_.centre(target);
-      group.known = epoch_;
-      group.read = group.mean;
+      group.known_in = plan_.number;
+      plan_.begun.push_back(target);
     }
   }
   const FrontVariable v = front_.variables()[index].variable;
@@ -123,15 +123,14 @@ void CondensationTree::tie(const InformationState& state, std::size_t index, int
   front_.tie(index, group_variable(target), at - group.centre);
 }
 
-void CondensationTree::note_reach(int at) {
-  Node& n = node(at);
-  for (const int g : n.groups) {
+void CondensationTree::note_reach(int at, SentMessage& next) {
+  for (const int g : next.groups) {
     ++node(g).group.fronts;
     const LeafTree::Box& box = tree_.box(g);
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.5 * options_.grain * box.diagonal().norm());
-    n.reach.extend(LeafTree::Box(box.min() - margin, box.max() + margin));
+    next.reach.extend(LeafTree::Box(box.min() - margin, box.max() + margin));
   }
-  tree_.for_each_source(at, [&](int source) { n.reach.extend(node(source).reach); });
+  tree_.for_each_planned_source(at, [&](int source) { next.reach.extend(next_of(source).reach); });
 }
 
 }  // namespace seif

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "seif/front.hpp"
@@ -36,33 +37,52 @@ struct LandmarkGroup {
   Motion mean = Motion::Zero();          // all its motion so far [m, m, rad], as above
   mutable Motion read = Motion::Zero();  // as above
   int fronts = 0;                        // [-] that it is in
-  std::int64_t known = 0;                // epoch in which `read` was last looked up, or begun
+  int known_in = 0;                      // number of the plan in which `read` is known, or begun
   int present_in = 0;                    // number of the front that it was last found in
   int wanted_by = 0;                     // number of the count of variables that would be tied to it
   int members = 0;                       // [-] these
+};
+
+/// What a node sends towards the hub; the hub's goes to the zone.
+struct SentMessage {
+  Condensed message;
+  std::vector<int> groups;  // nodes whose groups are in its front
+  LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
 };
 
 /// A node of the tree; an epoch ends with whatever changes a mean, or how it is held.
 struct CondensationNode {
   static constexpr int none = -1;
 
-  Condensed message;             // towards the hub; the hub's: to the zone
-  bool is_stale = true;          // the message
-  bool is_new = true;            // has never sent one
-  std::int64_t stale_since = 0;  // epoch
-  mutable std::int64_t read_at = 0;
-  std::vector<int> groups;  // nodes whose groups are in its front
-  LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
+  SentMessage sent;
+  bool is_new = true;                // has never sent one
+  int stale_in = 0;                  // number of the plan that has it send anew
+  int planned = none;                // place among the messages of that plan
+  mutable std::int64_t read_at = 0;  // epoch
   LandmarkGroup group;
-  double distance_ratio = 0.0;      // [-] its distance from the next hot leaves over its size
-  std::int64_t distance_known = 0;  // epoch of this
+  double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size
+  int distance_known_in = 0;    // number of the plan that knows it
 
   // Of leaves.
   int first_landmark = none;  // slot
   int landmarks = 0;          // [-]
   bool hot = false;
-  bool wanted = false;  // in the next zone
-  int used = 0;         // scan that last had a landmark of it in the window
+  bool next_hot = false;  // in the next zone, if one is planned; otherwise as `hot`
+  bool wanted = false;
+  int used = 0;  // scan that last had a landmark of it in the window
+};
+
+/// The next zone, and the messages that it needs, while these are made ready.
+struct CondensationPlan {
+  bool is_running = false;
+  int number = 0;                    // of all plans so far
+  std::vector<int> hot_leaves;       // of the next zone
+  std::vector<int> stale;            // nodes that send anew
+  std::vector<int> order;            // the same, each after those that it depends on
+  std::size_t ready = 0;             // [-] of these
+  std::vector<int> begun;            // nodes whose groups are
+  std::vector<int> new_leaves;       // that have come since, and stand beside the tree
+  std::deque<SentMessage> messages;  // to be; after that those that they have replaced
 };
 
 }  // namespace seif

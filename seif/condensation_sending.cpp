@@ -1,9 +1,34 @@
-// What a node sends: its front filled, condensed, and what is left of the residual.
+// The messages of a plan, made ready: each node's front filled and condensed. What they hold of the residual
+// comes when the zone moves (condensation_switching.cpp).
+#include <limits>
+
 #include "seif/condensation_tree.hpp"
 
 namespace seif {
 
-/// The blocks that a leaf owns, but those of the window.
+/// False if a matrix is not positive definite.
+bool CondensationTree::make_ready(const InformationState& state, std::int64_t most_blocks) {
+  const std::int64_t until = most_blocks > 0 ? blocks_touched_ + most_blocks  //
+                                             : std::numeric_limits<std::int64_t>::max();
+  while (plan_.ready < plan_.order.size() && blocks_touched_ < until) {
+    if (!send(state, plan_.order[plan_.ready])) return false;
+    ++plan_.ready;
+  }
+  return true;
+}
+
+bool CondensationTree::send(const InformationState& state, int from) {
+  front_.begin();
+  tree_.for_each_planned_source(from, [&](int source) { front_.add(next_of(source).message); });
+  const bool is_cold_leaf = tree_.is_leaf(from) && !node(from).next_hot;
+  if (is_cold_leaf) add_leaf_to_front(state, from);
+  if (tree_.planned_towards(from) == none) {
+    for (const int leaf : plan_.hot_leaves) add_links_to_front(state, leaf);
+  }
+  return condense(state, from);
+}
+
+/// The blocks that a leaf owns.
 void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf) {
   ++visit_;
   const auto mention = [&](int slot) {
@@ -14,7 +39,7 @@ void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf
   for_each_landmark(leaf, [&](int slot) {
     mention(slot);
     ++blocks_touched_;
-    if (state.position(slot) < 0) front_.add(slot, slot, state.information(slot));
+    front_.add(slot, slot, state.information(slot));
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
       ++blocks_touched_;
       const int leaf_of_other = place(other).leaf;
@@ -25,25 +50,25 @@ void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf
   });
 }
 
-/// Sends the message of a node, after those that it depends on.
-bool CondensationTree::send(const InformationState& state, int from) {
-  bool done = true;
-  tree_.for_each_source(from, [&](int source) {
-    if (done && node(source).is_stale) done = send(state, source);
+/// Of the blocks that a hot leaf owns, those with cold landmarks: nothing else comes between these and the
+/// zone.
+void CondensationTree::add_links_to_front(const InformationState& state, int leaf) {
+  for_each_landmark(leaf, [&](int slot) {
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      ++blocks_touched_;
+      const int leaf_of_other = place(other).leaf;
+      if (leaf_of_other < leaf || node(leaf_of_other).next_hot) return;
+      front_.mention(slot, 0);
+      front_.mention(other, 0);
+      front_.add(slot, other, Omega_so);
+    });
   });
-  if (!done) return false;
-  front_.begin();
-  tree_.for_each_source(from, [&](int source) { front_.add(node(source).message); });
-  const bool is_cold_leaf = tree_.is_leaf(from) && !node(from).hot;
-  if (is_cold_leaf) add_leaf_to_front(state, from);
-  if (!condense(state, from)) return false;
-  condense_residual(from);
-  return true;
 }
 
+/// Whether all blocks of a variable are in the front of a node. At the hub those of all cold ones are.
 bool CondensationTree::is_complete(int at, FrontVariable v, int balance) const {
-  const bool is_cold = is_group(v) || !node(place(v).leaf).hot;
-  const int next = tree_.towards(at);
+  const bool is_cold = is_group(v) || !node(place(v).leaf).next_hot;
+  const int next = tree_.planned_towards(at);
   if (next == none || !is_cold) return is_cold;
   if (balance != 0) return false;
   if (!is_group(v)) return true;
@@ -54,100 +79,12 @@ bool CondensationTree::is_complete(int at, FrontVariable v, int balance) const {
 
 /// Eliminates what is complete of the front.
 bool CondensationTree::condense(const InformationState& state, int at) {
-  tie_front(state, at);
-  Condensed& message = node(at).message;
+  SentMessage& next = plan_.messages[plan_.ready];
+  tie_front(state, at, next);
   const auto complete = [&](FrontVariable v, int balance) { return is_complete(at, v, balance); };
-  if (!front_.condense(complete, message)) return false;
-  for (const FrontVariable v : message.eliminated) settle(v, at);
-  for (Condensed::Tie& tie : message.tied) {
-    settle(tie.variable, at);
-    as_read(tie.variable, tie.reference.data());
-  }
-  message.reference.resize(static_cast<std::size_t>(message.b));
-  double* reference = message.reference.data();
-  for (const Condensed::Member& m : message.boundary) {
-    as_read(m.variable, reference);
-    reference += freedom(m.variable);
-  }
-  node(at).is_stale = node(at).is_new = false;
-  blocks_touched_ += message.blocks();
+  if (!front_.condense(complete, next.message)) return false;
+  blocks_touched_ += next.message.blocks();
   return true;
-}
-
-void CondensationTree::settle(FrontVariable v, int at) {
-  if (is_group(v)) {
-    LandmarkGroup& group = node(~v).group;
-    group.settled_at = at;
-    group.mean = group.read;
-  } else {
-    place(v).settled_at = at;
-    place(v).mean = place(v).read;
-  }
-}
-
-void CondensationTree::condense_residual(int at) {
-  Condensed& message = node(at).message;
-  front_.begin_residual(message);
-  tree_.for_each_source(at, [&](int source) {
-    const Condensed& part = node(source).message;
-    front_.add_residual(part, residual_of(part));
-  });
-  const bool is_hub = tree_.towards(at) == none;
-  if (is_hub || tree_.is_leaf(at)) {
-    const auto add_loose = [&](FrontVariable v) {
-      if (is_group(v)) return;
-      front_.add_residual(v, place(v).loose);
-      if (!is_hub) place(v).loose.setZero();
-    };
-    for (const FrontVariable v : message.eliminated) add_loose(v);
-    for (const Condensed::Member& m : message.boundary) add_loose(m.variable);
-    for (const Condensed::Tie& tie : message.tied) add_loose(tie.variable);
-  }
-  front_.condense_residual(message);
-}
-
-/// Brings together at the hub all messages and what the hot leaves own, and eliminates there whatever is not
-/// active.
-bool CondensationTree::fill_zone(InformationState& state) {
-  const int hub = tree_.hub();
-  bool done = true;
-  tree_.for_each_source(hub, [&](int source) {
-    if (done && node(source).is_stale) done = send(state, source);
-  });
-  if (!done) return false;
-  front_.begin();
-  tree_.for_each_source(hub, [&](int source) { front_.add(node(source).message); });
-  for (const int leaf : hot_leaves_) add_leaf_to_front(state, leaf);
-  if (!condense(state, hub)) return false;
-  condense_residual(hub);
-  const Condensed& message = node(hub).message;
-  zone_.load(message);
-  zone_places_.clear();
-  for (int h = 0; h < zone_.size(); ++h) {
-    Place& p = place(zone_.slot(h));
-    p.hot = h;
-    zone_.set_mean(h, p.read);
-    if (state.position(zone_.slot(h)) < 0) zone_places_.push_back(h);
-  }
-  zone_followed_at_ = ++epoch_;
-  if (!zone_places_.empty() && !zone_.eliminate(zone_places_)) return false;
-  pull_zone(state, Eigen::Map<const Eigen::VectorXd>(message.s.data(), message.b));
-  return true;
-}
-
-/// What is left of the residual s of the zone, now that nearer groups have been untied: those eliminated
-/// move, and the window gets it into its own.
-void CondensationTree::pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& s) {
-  for (int h = 0; h < zone_.size(); ++h) {
-    Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-    for (const int p : zone_places_) pull -= zone_.block(h, p) * s.segment<2>(2 * p);
-    const int position = state.position(zone_.slot(h));
-    if (position < 0) {
-      zone_.set_mean(h, zone_.mean(h) + pull);
-    } else {
-      state.r().segment<2>(InformationState::row_of(position)) = s.segment<2>(2 * h) + pull;
-    }
-  }
 }
 
 }  // namespace seif

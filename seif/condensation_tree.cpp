@@ -10,14 +10,27 @@ namespace seif {
 
 // Leaves.
 
+/// While a plan runs, a new leaf stands beside the tree.
 int CondensationTree::add_leaf(const Eigen::Vector2d& place) {
-  const int leaf = tree_.add_leaf(place);
+  const int leaf = tree_.new_leaf();
+  tree_.widen(leaf, place);
+  if (plan_.is_running) {
+    plan_.new_leaves.push_back(leaf);
+  } else {
+    attach(leaf);
+  }
   while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
-  node(leaf).hot = true;
+  node(leaf).hot = node(leaf).next_hot = true;
   node(leaf).used = scan_;
   hot_leaves_.push_back(leaf);
-  changed_.push_back(leaf);
   return leaf;
+}
+
+/// By its first landmark, which its box begins with.
+void CondensationTree::attach(int leaf) {
+  tree_.attach(leaf);
+  while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
+  changed_.push_back(leaf);
 }
 
 /// The nearest hot leaf that has room, or a new one.
@@ -25,7 +38,7 @@ int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
   int nearest = none;
   double shortest = std::numeric_limits<double>::infinity();
   for (const int leaf : hot_leaves_) {
-    if (node(leaf).landmarks >= options_.most_in_leaf) continue;
+    if (node(leaf).landmarks >= options_.most_in_leaf || !node(leaf).next_hot) continue;
     const double distance = (zone_.mean(place(node(leaf).first_landmark).hot) - p).squaredNorm();
     if (distance >= shortest) continue;
     shortest = distance;
@@ -46,11 +59,14 @@ void CondensationTree::join(const InformationState& state, int slot) {
 
 // The window.
 
-bool CondensationTree::activate(InformationState& state, std::span<const int> slots) {
+bool CondensationTree::activate(InformationState& state, std::vector<int>& slots) {
   ++scan_;
+  note_view(state);
   for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
   for (const int slot : slots) node(place(slot).leaf).used = scan_;
-  if (choose_hot_leaves(state, slots) && !move_zone(state)) return false;
+  if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
+  if (plan_.is_running && !work_on_plan(state)) return false;
+  waited_ += static_cast<std::int64_t>(std::erase_if(slots, [&](int slot) { return !is_ready(slot); }));
   zone_places_.clear();
   for (const int slot : slots) {
     const int h = place(slot).hot;
@@ -72,6 +88,29 @@ bool CondensationTree::activate(InformationState& state, std::span<const int> sl
     state.activate(slot);
   }
   return true;
+}
+
+/// Whether a landmark may be active: in this zone and, if one is planned, in the next.
+bool CondensationTree::is_ready(int slot) const {
+  return place(slot).hot != none && node(place(slot).leaf).next_hot;
+}
+
+/// The zone moves in an update of its own, unless little was left to do.
+bool CondensationTree::work_on_plan(InformationState& state) {
+  const std::int64_t before = blocks_touched_;
+  if (!make_ready(state, options_.most_blocks)) return false;
+  if (plan_.ready < plan_.order.size()) return true;
+  const bool has_time = 4 * (blocks_touched_ - before) <= options_.most_blocks;
+  return options_.most_blocks > 0 && !has_time ? true : move_zone(state);
+}
+
+bool CondensationTree::solve_all(InformationState& state) {
+  if (plan_.is_running && !(make_ready(state, 0) && move_zone(state))) return false;
+  groups_allowed_ = false;
+  begin_plan_of_all(state);
+  const bool done = make_ready(state, 0) && move_zone(state) && solve_window(state);
+  groups_allowed_ = true;
+  return done;
 }
 
 bool CondensationTree::deactivate(const InformationState& state, std::span<const int> slots) {
@@ -157,7 +196,7 @@ void CondensationTree::read(const InformationState& state, int at) const {
   } else {
     read_zone(state);
   }
-  const Condensed& message = n.message;
+  const Condensed& message = n.sent.message;
   if (message.e == 0 && message.tied.empty()) return;
   find_step(message);
   Eigen::Index row = 0;
@@ -226,7 +265,8 @@ int CondensationTree::settled_at(FrontVariable v) const {
 std::size_t CondensationTree::memory_bytes() const {
   std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + places_.memory_bytes() +
                       front_.memory_bytes() + zone_.memory_bytes();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].message.memory_bytes();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].sent.message.memory_bytes();
+  for (const SentMessage& planned : plan_.messages) bytes += sizeof(planned) + planned.message.memory_bytes();
   return bytes;
 }
 

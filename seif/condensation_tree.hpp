@@ -36,6 +36,13 @@ struct CondensationOptions {
   /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
   int most_unknowns = 160;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
+  /// [-] Blocks of messages that one update makes ready for the next zone, and perhaps one message more. 0:
+  /// all at once, as soon as a landmark is seen outside of the zone.
+  int most_blocks = 8'000;
+  // In multiples of how far the robot sees:
+  double zone_before = 0.75;  // how far before the robot the zone has its middle
+  double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
+  double zone_ahead = 1.25;   // and those so near are taken into the next one
 };
 
 /// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
@@ -46,8 +53,9 @@ class CondensationTree {
       : options_(options), tree_(start) {}
 
   /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
-  /// are now. False if a matrix is not positive definite, as below.
-  [[nodiscard]] bool activate(InformationState& state, std::span<const int> slots);
+  /// are now. `slots` loses those that have to wait, since the zone is on its way to them, or away from them.
+  /// False if a matrix is not positive definite, as below.
+  [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots);
 
   /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
   [[nodiscard]] bool solve_all(InformationState& state);
@@ -65,6 +73,8 @@ class CondensationTree {
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
 
   std::int64_t blocks_touched() const { return blocks_touched_ + zone_.blocks_touched(); }
+  /// Observations of known landmarks that have been left out since these had to wait. [-]
+  std::int64_t waited() const { return waited_; }
   std::size_t memory_bytes() const;
 
   /// At the cost of a pass over the map: what is wrong with the tree, if anything is.
@@ -83,46 +93,68 @@ class CondensationTree {
     for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
   }
 
+  // Planning.
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
-  bool move_zone(InformationState& state);
-  bool send_stale(InformationState& state, int hub);
+  void add_last_used(int landmarks);
+  void note_view(const InformationState& state);
+  void begin_plan(const InformationState& state);
+  void begin_plan_of_all(const InformationState& state);
+  void prepare_plan(const InformationState& state, int hub);
+  void put_in_order(int at);
+  bool is_stale(int at) const { return node(at).stale_in == plan_.number; }
+  const SentMessage& next_of(int at) const;
   void mark_changed_leaves();
-  void mark_stale(const InformationState& state, int at);
-  void mark_expired(const InformationState& state, int at);
+  void mark_stale(int at);
+  void mark_expired(int at);
+  void note_groups(int at);
+  int count_leaves(const InformationState& state, int slot) const;
+
+  // Sending.
+  bool work_on_plan(InformationState& state);
+  bool make_ready(const InformationState& state, std::int64_t most_blocks);
+  bool send(const InformationState& state, int from);
+  void add_leaf_to_front(const InformationState& state, int leaf);
+  void add_links_to_front(const InformationState& state, int leaf);
+  bool is_complete(int at, FrontVariable v, int balance) const;
+  bool condense(const InformationState& state, int at);
+
+  // Grouping.
   double distance_ratio(int group);
+  void tie_front(const InformationState& state, int at, SentMessage& next);
+  void tie(const InformationState& state, std::size_t index, int target, std::vector<int>& groups);
+  void note_reach(int at, SentMessage& next);
+  int count_unknowns(double ratio);
+  int group_for(FrontVariable v, double ratio);
+  int node_of(FrontVariable v) const;
+
+  // Switching.
+  bool move_zone(InformationState& state);
   void note_zone_residual(const InformationState& state);
   void take_from_loose(int at);
   void loosen(int leaf);
-  void switch_leaves(const InformationState& state, int hub);
+  void switch_leaves();
+  void replace(int at);
+  void settle(FrontVariable v, int at);
+  void condense_residual(int at);
+  bool fill_zone(InformationState& state);
+  void take_into_zone(int slot, int h);
+  void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone);
+  void reserve_boundary(Eigen::Index rows);
+  Eigen::VectorXd::SegmentReturnType residual_of(const Condensed& message);
+
+  // The live path.
   int leaf_for(const Eigen::Vector2d& p);
   int add_leaf(const Eigen::Vector2d& place);
-
+  void attach(int leaf);
+  bool is_ready(int slot) const;
   void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
   void follow_in_zone(const InformationState& state);
   int settled_at(FrontVariable v) const;
   const Eigen::VectorXd& read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
   void as_read(FrontVariable v, double* mean) const;
-  void note_groups(const Condensed& message);
-  void settle(FrontVariable v, int at);
   void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
   void find_step(const Condensed& message) const;
-  void reserve_boundary(Eigen::Index rows);
-  Eigen::VectorXd::SegmentReturnType residual_of(const Condensed& message);
-  int count_leaves(const InformationState& state, int slot) const;
-  void add_leaf_to_front(const InformationState& state, int leaf);
-  bool send(const InformationState& state, int from);
-  bool condense(const InformationState& state, int at);
-  void condense_residual(int at);
-  bool is_complete(int at, FrontVariable v, int balance) const;
-  void tie_front(const InformationState& state, int at);
-  void tie(const InformationState& state, std::size_t index, int target, std::vector<int>& groups);
-  void note_reach(int at);
-  int count_unknowns(double ratio);
-  int group_for(FrontVariable v, double ratio);
-  int node_of(FrontVariable v) const;
-  bool fill_zone(InformationState& state);
-  void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& s);
 
   CondensationOptions options_;
   LeafTree tree_;
@@ -130,16 +162,17 @@ class CondensationTree {
   ChunkedArray<Place> places_;  // by slot
   Front front_;
   HotZone zone_;
-  std::vector<int> hot_leaves_, next_hot_;
-  std::vector<int> changed_;  // leaves that have become hot or cold, or are new
-  std::vector<int> way_, zone_places_;
+  CondensationPlan plan_;
+  std::vector<int> hot_leaves_;
+  std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
+  std::vector<int> zone_places_;
+  double view_ = 0.0;  // how far the robot sees [m]
   mutable std::vector<int> owners_;
   std::int64_t epoch_ = 1;
   std::int64_t zone_followed_at_ = 0;  // epoch, as below
   mutable std::int64_t zone_read_at_ = 0;
   mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
   int scan_ = 0, visit_ = 0;
-  std::vector<int> stale_;       // nodes, as the zone moves
   bool groups_allowed_ = true;   // to be begun
   int fronts_ = 0, counts_ = 0;  // [-] so far: marks of groups
   bool any_present_ = false;     // groups in the front, by what others have sent
@@ -147,7 +180,7 @@ class CondensationTree {
   Eigen::MatrixXd M_;            // (w x w), with room to grow
   Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
   Eigen::VectorXd step_, change_;              // (w), with room to grow
-  std::int64_t blocks_touched_ = 0;
+  std::int64_t blocks_touched_ = 0, waited_ = 0;
 };
 
 }  // namespace seif

@@ -5,6 +5,18 @@
 
 namespace seif {
 
+namespace {
+
+/// Messages take each other's places: with all the room they have ever had, each would in the end be as large
+/// as the largest.
+void make_room(std::vector<double>& values, std::size_t count) {
+  values.clear();
+  if (values.capacity() > 2 * count) values.shrink_to_fit();
+  values.reserve(count);
+}
+
+}  // namespace
+
 void Condensed::clear() {
   eliminated.clear();
   boundary.clear();
@@ -209,12 +221,13 @@ bool Front::factorise(Condensed& out) {
       M_BB.selfadjointView<Eigen::Lower>().rankUpdate(M_BE, -1.0);
     }
   }
-  out.factor.resize(static_cast<std::size_t>(n * e));
-  Eigen::Map<Eigen::MatrixXd>(out.factor.data(), n, e) = M_.topLeftCorner(n, e);
-  out.S.resize(static_cast<std::size_t>(b * (b + 1) / 2));
-  double* S = out.S.data();
+  make_room(out.factor, static_cast<std::size_t>(n * e));
+  for (Eigen::Index col = 0; col < e; ++col) {
+    out.factor.insert(out.factor.end(), &M_(0, col), &M_(0, col) + n);
+  }
+  make_room(out.S, static_cast<std::size_t>(b * (b + 1) / 2));
   for (Eigen::Index col = 0; col < b; ++col) {
-    S = std::copy_n(&M_BB(col, col), b - col, S);
+    out.S.insert(out.S.end(), &M_BB(col, col), &M_BB(col, col) + (b - col));
   }
   return true;
 }

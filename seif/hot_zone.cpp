@@ -71,7 +71,8 @@ bool HotZone::sweep(std::span<const int> places, double sign) {
   llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(V);
   llt.matrixL().solveInPlace<Eigen::OnTheRight>(V);
   auto F = F_.topLeftCorner(n, n);
-  F.noalias() -= (sign * V) * U.transpose();
+  F.triangularView<Eigen::Lower>() -= (sign * V) * U.transpose();
+  F.triangularView<Eigen::StrictlyUpper>() = F.transpose();
   col = 0;
   for (const int place : places) {
     F.middleCols<2>(2 * place) = V.middleCols<2>(col);

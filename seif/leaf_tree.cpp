@@ -66,12 +66,13 @@ int LeafTree::add_node() {
   return size() - 1;
 }
 
-int LeafTree::add_leaf(const Eigen::Vector2d& place) {
-  const int leaf = add_node();
-  const std::uint64_t key = at(leaf).key = key_of(in_grid(place), leaf);
+int LeafTree::new_leaf() { return add_node(); }
+
+void LeafTree::attach(int leaf) {
+  const std::uint64_t key = at(leaf).key = key_of(box(leaf).center(), leaf);
   if (root_ == none) {
     root_ = hub_ = leaf;
-    return leaf;
+    return;
   }
   int sibling = root_;
   const auto differ_at = [&] { return static_cast<int>(std::bit_width(at(sibling).key ^ key)) - 1; };
@@ -90,7 +91,9 @@ int LeafTree::add_leaf(const Eigen::Vector2d& place) {
   at(inner).child[side] = leaf;
   at(inner).child[1 - side] = sibling;
   at(leaf).parent = at(leaf).towards = inner;
-  return leaf;
+  for (const int n : {leaf, inner, sibling, at(inner).parent}) {
+    if (n != none) at(n).planned_towards = at(n).towards;
+  }
 }
 
 /// A new node between a node and its parent, or above the root.
@@ -141,16 +144,21 @@ int LeafTree::common_ancestor(std::span<const int> leaves) {
   return n;
 }
 
-void LeafTree::move_hub(int to, std::vector<int>& way) {
-  way.clear();
-  for (int n = to; n != hub_; n = at(n).towards) way.push_back(at(n).towards);
+void LeafTree::plan_hub(int to) {
+  way_.clear();
+  for (int n = to; n != hub_; n = at(n).towards) way_.push_back(at(n).towards);
   int next = to;  // the way was gone backwards
-  for (const int n : way) {
-    at(n).towards = next;
+  for (const int n : way_) {
+    at(n).planned_towards = next;
     next = n;
   }
-  at(to).towards = none;
-  hub_ = to;
+  at(to).planned_towards = none;
+  way_.push_back(to);
+}
+
+void LeafTree::move_hub() {
+  for (const int n : way_) at(n).towards = at(n).planned_towards;
+  hub_ = way_.back();
 }
 
 }  // namespace seif

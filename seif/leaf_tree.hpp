@@ -37,9 +37,11 @@ class LeafTree {
   /// The grid lies where the robot starts, so that nothing depends on where the world has its origin.
   explicit LeafTree(const Pose2& start);
 
-  /// Adds a leaf; returns its node. The first one is the hub. An inner node may be added too, between the
-  /// leaf and all others.
-  int add_leaf(const Eigen::Vector2d& place);
+  /// A leaf that does not stand in the tree yet, and has no box; returns its node.
+  int new_leaf();
+  /// Puts a new leaf where the middle of its box belongs. The first one is the hub. An inner node may be
+  /// added too, between the leaf and all others. Not between plan_hub() and move_hub().
+  void attach(int leaf);
 
   int size() const { return static_cast<int>(nodes_.size()); }
   bool is_leaf(int node) const { return at(node).child[0] == none; }
@@ -59,6 +61,8 @@ class LeafTree {
   int hub() const { return hub_; }
   /// none for the hub.
   int towards(int node) const { return at(node).towards; }
+  /// The same once the hub is where it is planned to be.
+  int planned_towards(int node) const { return at(node).planned_towards; }
 
   template <class Visit>
   void for_each_neighbour(int node, Visit&& visit) const {
@@ -71,17 +75,41 @@ class LeafTree {
   /// Visits the neighbours of a node but that on the way to the hub.
   template <class Visit>
   void for_each_source(int node, Visit&& visit) const {
-    const Node& n = at(node);
-    for (const int neighbour : {n.child[0], n.child[1], n.parent}) {
-      if (neighbour != none && neighbour != n.towards) visit(neighbour);
+    for_each_neighbour(node, [&](int other) {
+      if (other != towards(node)) visit(other);
+    });
+  }
+  template <class Visit>
+  void for_each_planned_source(int node, Visit&& visit) const {
+    for_each_neighbour(node, [&](int other) {
+      if (other != planned_towards(node)) visit(other);
+    });
+  }
+
+  /// Visits the leaves whose boxes come nearer to a place than `distance` [m].
+  template <class Visit>
+  void for_each_leaf_near(const Eigen::Vector2d& place, double distance, Visit&& visit) {
+    if (root_ == none) return;
+    const Eigen::Vector2d p = in_grid(place);
+    near_.assign(1, root_);
+    while (!near_.empty()) {
+      const int node = near_.back();
+      near_.pop_back();
+      if (box(node).squaredExteriorDistance(p) > distance * distance) continue;
+      if (is_leaf(node)) {
+        visit(node);
+      } else {
+        near_.insert(near_.end(), {at(node).child[1], at(node).child[0]});
+      }
     }
   }
 
   /// The lowest node above all of these; at least one.
   int common_ancestor(std::span<const int> leaves);
 
-  /// Makes a node the hub. `way` gets the nodes from the old hub on that now lead elsewhere.
-  void move_hub(int to, std::vector<int>& way);
+  /// Which node is to become the hub, and then makes it so.
+  void plan_hub(int to);
+  void move_hub();
 
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
@@ -89,7 +117,7 @@ class LeafTree {
   struct Node {
     int parent = none;
     int child[2] = {none, none};
-    int towards = none;
+    int towards = none, planned_towards = none;
     Box box;
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
@@ -109,6 +137,8 @@ class LeafTree {
   int root_ = none;
   int hub_ = none;
   int mark_ = 0;
+  std::vector<int> way_;   // nodes that lead elsewhere once the hub is where it is planned to be
+  std::vector<int> near_;  // nodes yet to be looked at
 };
 
 }  // namespace seif

@@ -63,7 +63,7 @@ void Seif::add_known(const Scan& scan) {
   factors_.clear();
   for (const Observation& observation : scan.observations) {
     const std::optional<int> slot = state_.find(observation.landmark);
-    if (!slot) continue;
+    if (!slot || state_.position(*slot) < 0) continue;
     factors_.push_back(is_closing(*slot, observation)
                            ? linearise_at_measurement(state_, *slot, observation, T_robot_sensor_)
                            : linearise(state_, *slot, observation, T_robot_sensor_));

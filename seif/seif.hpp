@@ -60,6 +60,7 @@ class Seif final : public Estimator {
       std::span<const LandmarkId> landmarks) const override;
 
   const InformationState& state() const { return state_; }
+  const CondensationTree& tree() const { return tree_; }
 
  private:
   Eigen::Vector2d mean(int slot) const;

@@ -251,6 +251,13 @@ TEST(HotZone, RefusesWhatIsNotPositiveDefinite) {
 }
 
 /// Nodes on the way from a node to the hub, at most as many as the tree has.
+int add_leaf(LeafTree& tree, const Eigen::Vector2d& place) {
+  const int leaf = tree.new_leaf();
+  tree.widen(leaf, place);
+  tree.attach(leaf);
+  return leaf;
+}
+
 int steps_to_hub(const LeafTree& tree, int from) {
   int steps = 0;
   for (int n = from; n != tree.hub() && steps <= tree.size(); n = tree.towards(n)) ++steps;
@@ -262,11 +269,11 @@ TEST(LeafTree, EveryWayLeadsToTheHubWhereverItMoves) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
   std::vector<int> leaves;
-  std::vector<int> way;
   for (int k = 0; k < 200; ++k) {
-    leaves.push_back(tree.add_leaf({coordinate(random), coordinate(random)}));
+    leaves.push_back(add_leaf(tree, {coordinate(random), coordinate(random)}));
     const std::vector<int> some{leaves[random() % leaves.size()], leaves[random() % leaves.size()]};
-    tree.move_hub(tree.common_ancestor(some), way);
+    tree.plan_hub(tree.common_ancestor(some));
+    tree.move_hub();
     for (int n = 0; n < tree.size(); ++n) ASSERT_LE(steps_to_hub(tree, n), tree.size());
     int sources = 0;
     for (int n = 0; n < tree.size(); ++n) tree.for_each_source(n, [&](int) { ++sources; });
@@ -283,7 +290,7 @@ int depth(const LeafTree& tree, int node) {
 TEST(LeafTree, IsNoDeeperThanTheLogarithmOfALongCorridorAsks) {
   LeafTree tree{Pose2{}};
   int deepest = 0;
-  for (int k = 0; k < 4096; ++k) tree.add_leaf({12.0 * k, 0.0});
+  for (int k = 0; k < 4096; ++k) add_leaf(tree, {12.0 * k, 0.0});
   for (int n = 0; n < tree.size(); ++n) deepest = std::max(deepest, depth(tree, n));
   EXPECT_LE(deepest, 24);  // twice log2(4096): both coordinates grow along it
 }
@@ -293,7 +300,7 @@ TEST(LeafTree, IsNoDeeperThanTheLogarithmOfAnAreaAsks) {
   const int lanes = 96;
   for (int i = 0; i < lanes * lanes; ++i) {
     const int along = i % lanes;
-    tree.add_leaf({8.0 * (i / lanes % 2 == 0 ? along : lanes - along), 8.0 * (i / lanes)});
+    add_leaf(tree, {8.0 * (i / lanes % 2 == 0 ? along : lanes - along), 8.0 * (i / lanes)});
   }
   int deepest = 0;
   for (int n = 0; n < tree.size(); ++n) deepest = std::max(deepest, depth(tree, n));
@@ -307,8 +314,7 @@ std::vector<int> scatter_leaves(LeafTree& tree) {
   std::vector<int> leaves;
   for (int k = 0; k < 200; ++k) {
     const Eigen::Vector2d place(coordinate(random), coordinate(random));
-    leaves.push_back(tree.add_leaf(place));
-    tree.widen(leaves.back(), place);
+    leaves.push_back(add_leaf(tree, place));
   }
   return leaves;
 }
@@ -335,7 +341,7 @@ TEST(LeafTree, ANodeIsWithinThoseAboveIt) {
 TEST(LeafTree, HoldsAnyNumberOfLeavesAtOnePlace) {
   LeafTree tree{Pose2{}};
   std::vector<int> leaves;
-  for (int k = 0; k < 50; ++k) leaves.push_back(tree.add_leaf({1.0, 2.0}));
+  for (int k = 0; k < 50; ++k) leaves.push_back(add_leaf(tree, {1.0, 2.0}));
   EXPECT_EQ(tree.size(), 99);
   EXPECT_FALSE(tree.is_leaf(tree.common_ancestor(leaves)));
 }

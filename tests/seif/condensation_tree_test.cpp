@@ -62,7 +62,7 @@ struct Twins {
     exact.begin_scan();
     if (!tree.activate(state, slots)) return false;
     if (exact_follows) follow();
-    for (const int slot : slots) {
+    for (const int slot : slots) {  // those that need not wait
       if (exact.position(slot) < 0) exact.activate(slot);
       state.mark_seen(slot);
       exact.mark_seen(slot);
@@ -74,7 +74,7 @@ struct Twins {
     std::vector<ObservationFactor> factors;
     for (const Observation& z : scan.observations) {
       const auto slot = to.find(z.landmark);
-      if (!slot) continue;
+      if (!slot || to.position(*slot) < 0) continue;
       const Eigen::Vector2d seen_at = invert_observation(to.pose(), {}, z).p_world_landmark;
       const bool closing = (seen_at - to.mean(*slot)).norm() > 0.5 * z.range;
       factors.push_back(closing ? linearise_at_measurement(to, *slot, z, {}) : linearise(to, *slot, z, {}));
@@ -136,10 +136,17 @@ struct Twins {
 
 constexpr double exact = 1e-8;  // [m]
 
-/// Small leaves, for deep trees in small worlds.
-constexpr CondensationOptions deep{.most_in_leaf = 4, .most_hot = 10};
+/// Small leaves, for deep trees in small worlds; all the work of a new zone at once.
+constexpr CondensationOptions deep{.most_in_leaf = 4, .most_hot = 10, .most_blocks = 0};
 
-void expect_exact_mean(test::PathDrive drive, CondensationOptions options) {
+/// The same in slices: many observations fall into the time when a zone is on its way.
+CondensationOptions sliced(CondensationOptions options) {
+  options.most_blocks = 300;
+  return options;
+}
+
+/// Adds up how many observations had to wait.
+void expect_exact_mean(test::PathDrive drive, CondensationOptions options, std::int64_t* waited = nullptr) {
   options.most_unknowns = 100'000;  // never a group
   Twins twins(drive.setup().start, options);
   for (int k = 0; !drive.at_end(); ++k) {
@@ -148,6 +155,7 @@ void expect_exact_mean(test::PathDrive drive, CondensationOptions options) {
     ASSERT_EQ(twins.tree.broken_invariant(twins.state), std::nullopt) << "update " << k;
     ASSERT_LT(twins.error(), exact) << "update " << k;
   }
+  if (waited != nullptr) *waited += twins.tree.waited();
 }
 
 using test::Points;
@@ -227,6 +235,16 @@ TEST_P(InWorld, TheMeanIsTheExactSolutionAfterEveryUpdate) {
   }
 }
 
+TEST_P(InWorld, TheMeanIsTheExactSolutionWhileTheZoneMovesInSlices) {
+  const Points path = GetParam().path();
+  std::int64_t waited = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_exact_mean({test::landmarks_along(path, seed), path, seed}, sliced(deep), &waited);
+  }
+  EXPECT_EQ(waited > 0, GetParam().name != "Chain");  // which never comes back
+}
+
 /// Three heaps of landmarks with nothing in between.
 TEST(CondensationTree, HeapsFarApartAreExact) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
@@ -251,12 +269,14 @@ TEST(CondensationTree, RandomEpisodesAreExact) {
     for (int i = 0; i < 8; ++i) path.emplace_back(anywhere(random), anywhere(random));
     std::uniform_int_distribution<int> size(2, 8);
     const int in_leaf = size(random);
-    expect_exact_mean({landmarks, path, seed}, {.most_in_leaf = in_leaf, .most_hot = 2 * size(random)});
+    const CondensationOptions options{.most_in_leaf = in_leaf, .most_hot = 2 * size(random)};
+    expect_exact_mean({landmarks, path, seed}, seed % 2 == 0 ? options : sliced(options));
   }
 }
 
 /// Groups so soon and so coarse that even these small worlds are full of them.
-constexpr CondensationOptions grouped{.most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5};
+constexpr CondensationOptions grouped{
+    .most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5, .most_blocks = 0};
 constexpr double rounding = 1e-7;  // of r, where one observation more changes it by about 1e3
 
 /// Of all rows, or of those of the window.
@@ -270,7 +290,7 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
-    Twins twins(drive.setup().start, grouped, true);
+    Twins twins(drive.setup().start, seed % 2 == 0 ? grouped : sliced(grouped), true);
     for (int k = 0; !drive.at_end(); ++k) {
       drive.advance();
       twins.update(drive.odometry(), drive.scan());
