@@ -24,19 +24,20 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
       return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
     if (is_hot) continue;
     if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
-    const Condensed& message = node(p.settled_at).sent.message;
+    const Condensed& message = sent(p.settled_at).message;
     const auto is_it = [&](const Condensed::Tie& tie) { return tie.variable == slot; };
     if (std::ranges::count(message.eliminated, slot) + std::ranges::count_if(message.tied, is_it) != 1)
       return broken("landmark ", slot, " is not settled at node ", p.settled_at);
   }
   for (int i = 0; i < tree_.size(); ++i) {
-    const Condensed& message = node(i).sent.message;
+    const Condensed& message = sent(i).message;
     if (node(i).hot && i != tree_.hub() && message.blocks() > 0)
       return broken("hot leaf ", i, " has a message");
-    const int next = tree_.towards(i);
+    int next = tree_.towards(i);
+    while (next != none && sent(next).is_bare) next = tree_.towards(next);
     for (const Condensed::Member& m : message.boundary) {
-      if (next == none || node(next).is_new) continue;
-      const Condensed& later = node(next).sent.message;
+      if (next == none) continue;
+      const Condensed& later = sent(next).message;
       const auto is_it = [&](const auto& other) { return other.variable == m.variable; };
       if (!std::ranges::count(later.eliminated, m.variable) && std::ranges::none_of(later.boundary, is_it) &&
           std::ranges::none_of(later.tied, is_it)) {
@@ -47,7 +48,7 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
       if (settled_at(v) != i)
         return broken("variable ", v, " is eliminated at node ", i, ", and settled elsewhere");
     }
-    for (const int g : node(i).sent.groups) {
+    for (const int g : sent(i).groups) {
       const auto inside = [&](int leaf) { return tree_.is_within(leaf, g); };
       const auto used_in = [&](int leaf) {
         return inside(leaf) && std::ranges::find(changed_, leaf) == changed_.end();

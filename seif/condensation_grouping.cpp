@@ -79,8 +79,6 @@ void CondensationTree::tie_front(const InformationState& state, int at, SentMess
   ++fronts_;
   std::vector<int>& groups = next.groups;
   groups.clear();
-  next.reach.setEmpty();
-  if (tree_.is_leaf(at) && !node(at).next_hot) return;
   any_present_ = false;
   int unknowns = 0;
   for (const Front::Variable& v : front_.variables()) {
@@ -124,6 +122,7 @@ void CondensationTree::tie(const InformationState& state, std::size_t index, int
 }
 
 void CondensationTree::note_reach(int at, SentMessage& next) {
+  next.reach.setEmpty();
   for (const int g : next.groups) {
     ++node(g).group.fronts;
     const LeafTree::Box& box = tree_.box(g);

@@ -22,6 +22,7 @@ struct CondensedLandmark {
   int hot = none;         // its place in the zone
   int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
   int visit = 0;
+  int row = 0;                         // in the part that is being looked at
   Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
   mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
   Point loose = Point::Zero();         // what no message holds of its residual
@@ -43,9 +44,12 @@ struct LandmarkGroup {
   int members = 0;                       // [-] these
 };
 
-/// What a node sends towards the hub; the hub's goes to the zone.
+/// What a node sends towards the hub; the hub's goes to the zone. A bare node lets through what comes to it;
+/// a bare leaf that is cold tells what it is about (boundary, s, reference), and its S are its blocks of
+/// Omega.
 struct SentMessage {
   Condensed message;
+  bool is_bare = true;
   std::vector<int> groups;  // nodes whose groups are in its front
   LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
 };
@@ -54,8 +58,7 @@ struct SentMessage {
 struct CondensationNode {
   static constexpr int none = -1;
 
-  SentMessage sent;
-  bool is_new = true;                // has never sent one
+  SentMessage sent;                  // nothing while it is the hub: see CondensationTree::sent()
   int stale_in = 0;                  // number of the plan that has it send anew
   int planned = none;                // place among the messages of that plan
   mutable std::int64_t read_at = 0;  // epoch
@@ -81,8 +84,8 @@ struct CondensationPlan {
   std::vector<int> order;            // the same, each after those that it depends on
   std::size_t ready = 0;             // [-] of these
   std::vector<int> begun;            // nodes whose groups are
+  std::deque<SentMessage> messages;  // by that order, as far as ready
   std::vector<int> new_leaves;       // that have come since, and stand beside the tree
-  std::deque<SentMessage> messages;  // to be; after that those that they have replaced
 };
 
 }  // namespace seif

@@ -19,12 +19,13 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   };
   for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
   for (const int slot : slots) want(place(slot).leaf);
-  const Pose2 pose = state.pose();
+  // Leaves stay where their landmarks first were, however a closure has bent the map since.
   const double ahead = options_.most_blocks > 0 ? view_ : 0.0;
-  const Eigen::Vector2d before_it = pose * Eigen::Vector2d(options_.zone_before * ahead, 0.0);
-  if (ahead > 0.0) tree_.for_each_leaf_near(before_it, options_.look_ahead * ahead, want);
+  const Eigen::Vector2d middle =
+      state.linearisation_pose() * Eigen::Vector2d(options_.zone_before * ahead, 0.0);
+  if (ahead > 0.0) tree_.for_each_leaf_near(middle, options_.look_ahead * ahead, want);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return node(leaf).hot; });
-  if (ahead > 0.0) tree_.for_each_leaf_near(before_it, options_.zone_ahead * ahead, want);
+  if (ahead > 0.0) tree_.for_each_leaf_near(middle, options_.zone_ahead * ahead, want);
   const bool may_stay = all_hot && zone_.size() <= std::max(options_.most_hot, landmarks + landmarks / 2);
   if (!may_stay) add_last_used(landmarks);
   for (const int leaf : chosen) node(leaf).wanted = false;
@@ -42,18 +43,6 @@ void CondensationTree::add_last_used(int landmarks) {
     if (landmarks > options_.most_hot) break;
     node(leaf).wanted = true;
     plan_.hot_leaves.push_back(leaf);
-  }
-}
-
-/// How far the robot sees: that of the last scan, or of those before it, less and less.
-void CondensationTree::note_view(const InformationState& state) {
-  constexpr double forget = 0.99;  // with each scan
-  const Pose2 pose = state.pose();
-  view_ *= forget;
-  for (int p = 0; p < state.active_count(); ++p) {
-    const int slot = state.active(p);
-    if (state.scans_since_seen(slot) > 1) continue;  // this one has only begun
-    view_ = std::max(view_, (state.mean(slot) - Eigen::Vector2d(pose.x, pose.y)).norm());
   }
 }
 
@@ -132,21 +121,21 @@ void CondensationTree::mark_stale(int at) {
 
 /// Nodes with a group in their fronts that the next zone is too near to, and what depends on them.
 void CondensationTree::mark_expired(int at) {
-  const SentMessage& sent = node(at).sent;
+  const SentMessage& now = sent(at);
   const bool changes = is_stale(at);
-  const auto enters = [&](int leaf) { return sent.reach.intersects(tree_.box(leaf)); };
+  const auto enters = [&](int leaf) { return now.reach.intersects(tree_.box(leaf)); };
   if (!changes && std::ranges::none_of(plan_.hot_leaves, enters)) return;
   const auto is_too_near = [&](int g) { return distance_ratio(g) < 0.5 * options_.grain; };
-  if (!changes && std::ranges::any_of(sent.groups, is_too_near)) mark_stale(at);
+  if (!changes && std::ranges::any_of(now.groups, is_too_near)) mark_stale(at);
   tree_.for_each_source(at, [&](int source) { mark_expired(source); });
 }
 
 /// Those that a node has heard or told of: their means will be known when the zone moves.
 void CondensationTree::note_groups(int at) {
   if (is_stale(at)) {
-    for (const int g : node(at).sent.groups) node(g).group.known_in = plan_.number;
+    for (const int g : sent(at).groups) node(g).group.known_in = plan_.number;
   }
-  for (const Condensed::Member& m : node(at).sent.message.boundary) {
+  for (const Condensed::Member& m : sent(at).message.boundary) {
     if (is_group(m.variable)) node(~m.variable).group.known_in = plan_.number;
   }
 }

@@ -18,14 +18,36 @@ bool CondensationTree::make_ready(const InformationState& state, std::int64_t mo
 }
 
 bool CondensationTree::send(const InformationState& state, int from) {
+  SentMessage& next = plan_.messages[plan_.ready];
+  const bool is_hub = tree_.planned_towards(from) == none;
+  next.is_bare = !is_hub && tree_.leaves(from) <= most_bare;
   front_.begin();
-  tree_.for_each_planned_source(from, [&](int source) { front_.add(next_of(source).message); });
-  const bool is_cold_leaf = tree_.is_leaf(from) && !node(from).next_hot;
-  if (is_cold_leaf) add_leaf_to_front(state, from);
-  if (tree_.planned_towards(from) == none) {
+  if (next.is_bare) {
+    if (tree_.is_leaf(from) && !node(from).next_hot) add_leaf_to_front(state, from);
+    next.groups.clear();
+    note_reach(from, next);
+    front_.list(next.message);
+    return true;
+  }
+  gather(state, from);
+  if (is_hub) {
     for (const int leaf : plan_.hot_leaves) add_links_to_front(state, leaf);
   }
-  return condense(state, from);
+  return condense(state, from, next);
+}
+
+/// Brings to the front of a node what its sources send, or what comes through them.
+void CondensationTree::gather(const InformationState& state, int at) {
+  tree_.for_each_planned_source(at, [&](int source) {
+    const SentMessage& next = next_of(source);
+    if (!next.is_bare) {
+      front_.add(next.message);
+    } else if (!tree_.is_leaf(source)) {
+      gather(state, source);
+    } else if (!node(source).next_hot) {
+      add_leaf_to_front(state, source);
+    }
+  });
 }
 
 /// The blocks that a leaf owns.
@@ -36,17 +58,11 @@ void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf
     place(slot).visit = visit_;
     front_.mention(slot, place(slot).leaf == leaf ? 1 - place(slot).leaves : 1);
   };
-  for_each_landmark(leaf, [&](int slot) {
-    mention(slot);
+  for_each_owned_block(state, leaf, [&](int slot, int other, const auto& Omega_so) {
     ++blocks_touched_;
-    front_.add(slot, slot, state.information(slot));
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      ++blocks_touched_;
-      const int leaf_of_other = place(other).leaf;
-      if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
-      mention(other);
-      front_.add(slot, other, Omega_so);
-    });
+    mention(slot);
+    mention(other);
+    front_.add(slot, other, Omega_so);
   });
 }
 
@@ -78,8 +94,7 @@ bool CondensationTree::is_complete(int at, FrontVariable v, int balance) const {
 }
 
 /// Eliminates what is complete of the front.
-bool CondensationTree::condense(const InformationState& state, int at) {
-  SentMessage& next = plan_.messages[plan_.ready];
+bool CondensationTree::condense(const InformationState& state, int at, SentMessage& next) {
   tie_front(state, at, next);
   const auto complete = [&](FrontVariable v, int balance) { return is_complete(at, v, balance); };
   if (!front_.condense(complete, next.message)) return false;

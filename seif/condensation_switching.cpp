@@ -10,11 +10,11 @@ bool CondensationTree::move_zone(InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
   note_zone_residual(state);
   for (const int at : plan_.stale) {
-    if (tree_.is_leaf(at) && !node(at).hot) loosen(at);
+    if (tree_.is_leaf(at) && !node(at).hot) loosen(state, at);
   }
   switch_leaves();
   for (const int g : plan_.begun) node(g).group.read = node(g).group.mean;
-  for (const int at : plan_.order) replace(at);
+  for (const int at : plan_.order) replace(state, at);
   plan_.is_running = false;
   const bool done = fill_zone(state);
   for (const int leaf : plan_.new_leaves) attach(leaf);
@@ -28,24 +28,48 @@ void CondensationTree::reserve_boundary(Eigen::Index rows) {
   part_residual_.resize(2 * rows);
 }
 
-/// What a message holds of the residual of its boundary, as that is now.
-Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const Condensed& message) {
+/// What the message of a node holds of the residual of its boundary, as that is now.
+Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const InformationState& state, int at) {
+  const Condensed& message = sent(at).message;
   reserve_boundary(message.b);
   auto d = part_step_.head(message.b);
   auto r = part_residual_.head(message.b);
   step_of(message, d);
-  message.residual(d, r);
-  blocks_touched_ += message.blocks();
+  if (message.b == 0) return r;  // of a hot leaf, or a new one
+  if (sent(at).is_bare) {
+    residual_of_leaf(state, at, d, r);
+  } else {
+    message.residual(d, r);
+    blocks_touched_ += message.blocks();
+  }
   return r;
 }
 
-/// What the messages to a node hold of the residual of hot landmarks. A node that has come in between since
-/// has none of its own yet.
-void CondensationTree::take_from_loose(int at) {
-  tree_.for_each_source(at, [&](int source) {
-    if (node(source).is_new) return take_from_loose(source);
-    const Condensed& m = node(source).sent.message;
-    const auto r = residual_of(m);
+/// s - S d, with the blocks that the leaf owns for S.
+void CondensationTree::residual_of_leaf(const InformationState& state, int leaf,
+                                        const Eigen::Ref<const Eigen::VectorXd>& d,
+                                        Eigen::Ref<Eigen::VectorXd> r) {
+  const Condensed& message = sent(leaf).message;
+  r = Eigen::Map<const Eigen::VectorXd>(message.s.data(), message.b);
+  int row = 0;
+  for (const Condensed::Member& m : message.boundary) {
+    place(m.variable).row = row;
+    row += 2;
+  }
+  for_each_owned_block(state, leaf, [&](int i, int j, const auto& Omega_ij) {
+    const int row_i = place(i).row;
+    const int row_j = place(j).row;
+    ++blocks_touched_;
+    r.segment<2>(row_i) -= Omega_ij * d.segment<2>(row_j);
+    if (i != j) r.segment<2>(row_j) -= Omega_ij.transpose() * d.segment<2>(row_i);
+  });
+}
+
+/// What the messages to a node hold of the residual of hot landmarks.
+void CondensationTree::take_from_loose(const InformationState& state, int at) {
+  for_each_part(at, [&](int source) {
+    const Condensed& m = sent(source).message;
+    const auto r = residual_of(state, source);
     Eigen::Index row = 0;
     for (const Condensed::Member& member : m.boundary) {
       const FrontVariable v = member.variable;
@@ -63,8 +87,8 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
     p.loose.setZero();
     if (position >= 0) p.loose = state.r().segment<2>(InformationState::row_of(position));
   }
-  take_from_loose(tree_.hub());
-  const Condensed& to_zone = node(tree_.hub()).sent.message;
+  take_from_loose(state, tree_.hub());
+  const Condensed& to_zone = sent(tree_.hub()).message;
   reserve_boundary(to_zone.b);
   auto d = part_step_.head(to_zone.b);
   step_of(to_zone, d);
@@ -80,9 +104,9 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
 }
 
 /// A cold leaf whose message goes: what its message held of the residual.
-void CondensationTree::loosen(int leaf) {
-  const Condensed& m = node(leaf).sent.message;
-  const auto r = residual_of(m);
+void CondensationTree::loosen(const InformationState& state, int leaf) {
+  const Condensed& m = sent(leaf).message;
+  const auto r = residual_of(state, leaf);
   Eigen::Index row = 0;
   for (const Condensed::Member& member : m.boundary) {
     place(member.variable).loose += r.segment<2>(row);
@@ -104,13 +128,15 @@ void CondensationTree::switch_leaves() {
   tree_.move_hub();
 }
 
-/// A node's message by the planned one, after those that it depends on.
-void CondensationTree::replace(int at) {
-  Node& n = node(at);
-  for (const int g : n.sent.groups) --node(g).group.fronts;
-  std::swap(n.sent, plan_.messages[static_cast<std::size_t>(n.planned)]);
-  n.is_new = false;
-  Condensed& message = n.sent.message;
+/// A node's message by the planned one, after those that it depends on. Copied: so each node needs the room
+/// of its own largest message, and none is asked for once the map is built.
+void CondensationTree::replace(const InformationState& state, int at) {
+  const SentMessage& planned = plan_.messages[static_cast<std::size_t>(node(at).planned)];
+  forget(node(at).sent);
+  SentMessage& now = at == tree_.hub() ? to_zone_ : node(at).sent;
+  forget(now);
+  now = planned;
+  Condensed& message = now.message;
   for (const FrontVariable v : message.eliminated) settle(v, at);
   for (Condensed::Tie& tie : message.tied) {
     settle(tie.variable, at);
@@ -122,7 +148,13 @@ void CondensationTree::replace(int at) {
     as_read(m.variable, reference);
     reference += freedom(m.variable);
   }
-  condense_residual(at);
+  condense_residual(state, at, message);
+}
+
+void CondensationTree::forget(SentMessage& sent) {
+  for (const int g : sent.groups) --node(g).group.fronts;
+  sent.groups.clear();
+  sent.message.clear();
 }
 
 void CondensationTree::settle(FrontVariable v, int at) {
@@ -136,17 +168,17 @@ void CondensationTree::settle(FrontVariable v, int at) {
   }
 }
 
-void CondensationTree::condense_residual(int at) {
-  Condensed& message = node(at).sent.message;
+void CondensationTree::condense_residual(const InformationState& state, int at, Condensed& message) {
   front_.begin_residual(message);
-  tree_.for_each_source(at, [&](int source) {
-    const Condensed& part = node(source).sent.message;
-    if (is_stale(source)) {  // and by now replaced: it has told of the residual where the means are
-      front_.add_residual(part, Eigen::Map<const Eigen::VectorXd>(part.s.data(), part.b));
-    } else {
-      front_.add_residual(part, residual_of(part));
-    }
-  });
+  if (!sent(at).is_bare)
+    for_each_part(at, [&](int source) {
+      const Condensed& part = sent(source).message;
+      if (is_stale(source)) {  // and by now replaced: it has told of the residual where the means are
+        front_.add_residual(part, Eigen::Map<const Eigen::VectorXd>(part.s.data(), part.b));
+      } else {
+        front_.add_residual(part, residual_of(state, source));
+      }
+    });
   const bool is_hub = tree_.towards(at) == none;
   if (is_hub || tree_.is_leaf(at)) {
     const auto add_loose = [&](FrontVariable v) {
@@ -164,7 +196,7 @@ void CondensationTree::condense_residual(int at) {
 /// What has come to the hub, and what the hot leaves have among themselves; those that are not active are
 /// eliminated.
 bool CondensationTree::fill_zone(InformationState& state) {
-  const Condensed& to_zone = node(tree_.hub()).sent.message;
+  const Condensed& to_zone = sent(tree_.hub()).message;
   zone_.load(to_zone);
   for (int h = 0; h < zone_.size(); ++h) take_into_zone(zone_.slot(h), h);
   for (const int leaf : hot_leaves_) {

@@ -59,9 +59,10 @@ void CondensationTree::join(const InformationState& state, int slot) {
 
 // The window.
 
-bool CondensationTree::activate(InformationState& state, std::vector<int>& slots) {
+bool CondensationTree::activate(InformationState& state, std::vector<int>& slots, double range) {
   ++scan_;
-  note_view(state);
+  constexpr double forget = 0.99;  // with each scan
+  view_ = std::max(range, forget * view_);
   for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
   for (const int slot : slots) node(place(slot).leaf).used = scan_;
   if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
@@ -196,7 +197,7 @@ void CondensationTree::read(const InformationState& state, int at) const {
   } else {
     read_zone(state);
   }
-  const Condensed& message = n.sent.message;
+  const Condensed& message = sent(at).message;
   if (message.e == 0 && message.tied.empty()) return;
   find_step(message);
   Eigen::Index row = 0;
@@ -264,7 +265,7 @@ int CondensationTree::settled_at(FrontVariable v) const {
 
 std::size_t CondensationTree::memory_bytes() const {
   std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + places_.memory_bytes() +
-                      front_.memory_bytes() + zone_.memory_bytes();
+                      front_.memory_bytes() + zone_.memory_bytes() + to_zone_.message.memory_bytes();
   for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].sent.message.memory_bytes();
   for (const SentMessage& planned : plan_.messages) bytes += sizeof(planned) + planned.message.memory_bytes();
   return bytes;

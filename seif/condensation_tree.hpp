@@ -54,8 +54,8 @@ class CondensationTree {
 
   /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
   /// are now. `slots` loses those that have to wait, since the zone is on its way to them, or away from them.
-  /// False if a matrix is not positive definite, as below.
-  [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots);
+  /// `range` is that of the farthest observation [m]. False if a matrix is not positive definite, as below.
+  [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots, double range);
 
   /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
   [[nodiscard]] bool solve_all(InformationState& state);
@@ -82,21 +82,46 @@ class CondensationTree {
 
  private:
   static constexpr int none = -1;
+  static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
   using Place = CondensedLandmark;
   using Node = CondensationNode;
   Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
   const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
   Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   template <class Visit>
   void for_each_landmark(int leaf, Visit&& visit) const {
     for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
   }
 
+  /// visit(slot, other, Omega) for each block that a leaf owns; those of two leaves are the older one's.
+  template <class Visit>
+  void for_each_owned_block(const InformationState& state, int leaf, Visit&& visit) const {
+    for_each_landmark(leaf, [&](int slot) {
+      visit(slot, slot, state.information(slot));
+      state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+        const int leaf_of_other = place(other).leaf;
+        if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
+        visit(slot, other, Omega_so);
+      });
+    });
+  }
+  /// Visits the nodes whose messages come to a node, through bare ones or not.
+  template <class Visit>
+  void for_each_part(int at, Visit&& visit) const {
+    tree_.for_each_source(at, [&](int source) {
+      if (sent(source).is_bare && !tree_.is_leaf(source)) {
+        for_each_part(source, visit);
+      } else {
+        visit(source);
+      }
+    });
+  }
+
   // Planning.
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
   void add_last_used(int landmarks);
-  void note_view(const InformationState& state);
   void begin_plan(const InformationState& state);
   void begin_plan_of_all(const InformationState& state);
   void prepare_plan(const InformationState& state, int hub);
@@ -113,10 +138,11 @@ class CondensationTree {
   bool work_on_plan(InformationState& state);
   bool make_ready(const InformationState& state, std::int64_t most_blocks);
   bool send(const InformationState& state, int from);
+  void gather(const InformationState& state, int at);
   void add_leaf_to_front(const InformationState& state, int leaf);
   void add_links_to_front(const InformationState& state, int leaf);
   bool is_complete(int at, FrontVariable v, int balance) const;
-  bool condense(const InformationState& state, int at);
+  bool condense(const InformationState& state, int at, SentMessage& next);
 
   // Grouping.
   double distance_ratio(int group);
@@ -130,17 +156,20 @@ class CondensationTree {
   // Switching.
   bool move_zone(InformationState& state);
   void note_zone_residual(const InformationState& state);
-  void take_from_loose(int at);
-  void loosen(int leaf);
+  void take_from_loose(const InformationState& state, int at);
+  void loosen(const InformationState& state, int leaf);
   void switch_leaves();
-  void replace(int at);
+  void replace(const InformationState& state, int at);
   void settle(FrontVariable v, int at);
-  void condense_residual(int at);
+  void condense_residual(const InformationState& state, int at, Condensed& message);
+  void forget(SentMessage& sent);
   bool fill_zone(InformationState& state);
   void take_into_zone(int slot, int h);
   void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone);
   void reserve_boundary(Eigen::Index rows);
-  Eigen::VectorXd::SegmentReturnType residual_of(const Condensed& message);
+  Eigen::VectorXd::SegmentReturnType residual_of(const InformationState& state, int at);
+  void residual_of_leaf(const InformationState& state, int leaf, const Eigen::Ref<const Eigen::VectorXd>& d,
+                        Eigen::Ref<Eigen::VectorXd> r);
 
   // The live path.
   int leaf_for(const Eigen::Vector2d& p);
@@ -162,6 +191,7 @@ class CondensationTree {
   ChunkedArray<Place> places_;  // by slot
   Front front_;
   HotZone zone_;
+  SentMessage to_zone_;  // by the hub
   CondensationPlan plan_;
   std::vector<int> hot_leaves_;
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new

@@ -5,18 +5,6 @@
 
 namespace seif {
 
-namespace {
-
-/// Messages take each other's places: with all the room they have ever had, each would in the end be as large
-/// as the largest.
-void make_room(std::vector<double>& values, std::size_t count) {
-  values.clear();
-  if (values.capacity() > 2 * count) values.shrink_to_fit();
-  values.reserve(count);
-}
-
-}  // namespace
-
 void Condensed::clear() {
   eliminated.clear();
   boundary.clear();
@@ -85,6 +73,14 @@ void Front::tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& l
   variables_[index_of(group)].balance += variables_[index].balance;
   variables_[index].group = group;
   variables_[index].lever = lever;
+}
+
+void Front::list(Condensed& out) const {
+  out.clear();
+  for (const Variable& v : variables_) {
+    out.boundary.push_back({v.variable, v.balance});
+    out.b += freedom(v.variable);
+  }
 }
 
 // Rows.
@@ -221,11 +217,11 @@ bool Front::factorise(Condensed& out) {
       M_BB.selfadjointView<Eigen::Lower>().rankUpdate(M_BE, -1.0);
     }
   }
-  make_room(out.factor, static_cast<std::size_t>(n * e));
+  out.factor.reserve(static_cast<std::size_t>(n * e));
   for (Eigen::Index col = 0; col < e; ++col) {
     out.factor.insert(out.factor.end(), &M_(0, col), &M_(0, col) + n);
   }
-  make_room(out.S, static_cast<std::size_t>(b * (b + 1) / 2));
+  out.S.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
   for (Eigen::Index col = 0; col < b; ++col) {
     out.S.insert(out.S.end(), &M_BB(col, col), &M_BB(col, col) + (b - col));
   }

@@ -82,6 +82,9 @@ class Front {
   /// From now on a variable moves with a group, which becomes one of the front if it is not.
   void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
 
+  /// Sets only the boundary of `out`, to all that is in the front.
+  void list(Condensed& out) const;
+
   /// Eliminates all variables of which is_complete(variable, balance) holds. False if their block is not
   /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
   template <class IsComplete>

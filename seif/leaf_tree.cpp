@@ -70,6 +70,7 @@ int LeafTree::new_leaf() { return add_node(); }
 
 void LeafTree::attach(int leaf) {
   const std::uint64_t key = at(leaf).key = key_of(box(leaf).center(), leaf);
+  at(leaf).leaves = 1;
   if (root_ == none) {
     root_ = hub_ = leaf;
     return;
@@ -91,6 +92,8 @@ void LeafTree::attach(int leaf) {
   at(inner).child[side] = leaf;
   at(inner).child[1 - side] = sibling;
   at(leaf).parent = at(leaf).towards = inner;
+  at(inner).leaves = at(sibling).leaves;
+  for (int n = inner; n != none; n = at(n).parent) ++at(n).leaves;
   for (const int n : {leaf, inner, sibling, at(inner).parent}) {
     if (n != none) at(n).planned_towards = at(n).towards;
   }

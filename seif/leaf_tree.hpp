@@ -45,6 +45,8 @@ class LeafTree {
 
   int size() const { return static_cast<int>(nodes_.size()); }
   bool is_leaf(int node) const { return at(node).child[0] == none; }
+  /// How many leaves stand below it, or 1 if it is one. [-]
+  int leaves(int node) const { return at(node).leaves; }
   /// none for the root.
   int parent(int node) const { return at(node).parent; }
   /// Whether `node` is `ancestor`, or stands below it.
@@ -121,6 +123,7 @@ class LeafTree {
     Box box;
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
+    int leaves = 0;         // [-] below it
     int branches = 0;       // [-] begun in its rectangle, so far down
     int marks = 0;          // of the leaves that common_ancestor() has gone up from
     int mark = 0;           // of which of its calls

@@ -48,10 +48,12 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
 
 void Seif::activate_known(const Scan& scan) {
   seen_.clear();
+  double range = 0.0;
   for (const Observation& observation : scan.observations) {
+    range = std::max(range, observation.range);
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
-  if (by_tree_ && !tree_.activate(state_, seen_)) throw NumericalFailure("activation", scan.t);
+  if (by_tree_ && !tree_.activate(state_, seen_, range)) throw NumericalFailure("activation", scan.t);
   for (const int slot : seen_) {
     if (state_.position(slot) < 0) mean_.activate(state_, slot);
     state_.mark_seen(slot);

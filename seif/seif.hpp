@@ -13,8 +13,8 @@ namespace seif {
 
 /// Where Seif gets its mean from.
 enum class SeifMean {
-  multilevel,  // rigid groups of landmarks, MultilevelMean: constant time, on its way to the exact mean
   tree,        // CondensationTree: exact in corridors, nearly so where large areas are covered
+  multilevel,  // rigid groups of landmarks, MultilevelMean: on its way to the exact mean, in least memory
   exact        // sparse Cholesky: exact, not in constant time
 };
 
@@ -30,7 +30,7 @@ struct SeifOptions {
   /// believed to be than so many times the measured range: the direction to it is useless then.
   /// As on a long ring that closes. 0: never.
   double closing_gate = 0.5;
-  SeifMean mean_recovery = SeifMean::multilevel;
+  SeifMean mean_recovery = SeifMean::tree;
   MultilevelOptions multilevel = {};
   CondensationOptions tree = {};
 };
@@ -41,8 +41,9 @@ struct SeifOptions {
 /// - takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes;
 /// - sparsifies by the gauge-free rule, in bursts, and never what is in view (sparsification);
-/// - moves groups of landmarks of every size, each update a few (multilevel_mean), or condenses all that is
-///   not near the robot along a tree (condensation_tree).
+/// - condenses all that is not near the robot along a tree (condensation_tree), or moves groups of landmarks
+/// of
+///   every size, each update a few (multilevel_mean).
 class Seif final : public Estimator {
  public:
   Seif(const EstimatorSetup& setup, const SeifOptions& options);

@@ -111,12 +111,12 @@ EstimatorType seif() {
           "believed to be than so many times the range; 0: never [-]."};
   const OptionSpec mean_recovery{
       .key = "mean_recovery",
-      .fallback = std::string("multilevel"),
-      .choices = {"multilevel", "tree", "exact"},
+      .fallback = std::string("tree"),
+      .choices = {"tree", "multilevel", "exact"},
       .help =
-          "How the mean is recovered: by rigid groups, nearly; along a condensation tree, exactly in "
-          "corridors "
-          "and nearly so in areas, with bursts of work; exactly, not in constant time."};
+          "How the mean is recovered: along a condensation tree, exactly in corridors and nearly so in "
+          "areas; by rigid groups, slowly after a closure but in least memory; exactly, not in constant "
+          "time."};
   const OptionSpec tree_unknowns{
       .key = "tree_unknowns",
       .fallback = std::int64_t{defaults.tree.most_unknowns},
@@ -131,38 +131,47 @@ EstimatorType seif() {
       .min = 0.1,
       .max = 100.0,
       .help = "With the tree: distance from the robot over size of the coarsest groups [-]."};
+  const OptionSpec tree_blocks{
+      .key = "tree_blocks",
+      .fallback = std::int64_t{defaults.tree.most_blocks},
+      .min = 0,
+      .max = 1'000'000'000,
+      .help =
+          "With the tree: blocks that an update makes ready for the next zone; 0: all at once, and no "
+          "observation has to wait [-]."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},
       .min = 0,
       .max = 1000,
-      .help = "Groups of each level that an update moves, beside those about the robot [-]."};
+      .help = "With groups: those of each level that an update moves, beside those about the robot [-]."};
   const OptionSpec relaxed_groups{
       .key = "relaxed_groups",
       .fallback = std::int64_t{defaults.multilevel.relaxed_groups},
       .min = 0,
       .max = 1000,
-      .help = "Groups of about ten landmarks whose landmarks an update relaxes one by one [-]."};
-  return {
-      .name = "seif",
-      .help =
-          "Ours: gauge-free sparsification, null space from first estimates, multilevel mean; constant time.",
-      .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
-                  other_groups, relaxed_groups, tree_unknowns, tree_grain},
-      .make = [=](const EstimatorSetup& setup, const Options& options) {
-        SeifOptions chosen;
-        chosen.theta_x = integer(options, theta_x);
-        chosen.theta_max = integer(options, theta_max);
-        chosen.first_estimates = integer(options, first_estimates);
-        chosen.relinearise_above = option<double>(options, relinearise_above.key);
-        chosen.closing_gate = option<double>(options, closing_gate.key);
-        chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
-        chosen.multilevel.other_groups = integer(options, other_groups);
-        chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
-        chosen.tree.most_unknowns = integer(options, tree_unknowns);
-        chosen.tree.grain = option<double>(options, tree_grain.key);
-        return std::make_unique<Seif>(setup, chosen);
-      }};
+      .help = "With groups: those of about ten landmarks whose landmarks an update relaxes one by one [-]."};
+  return {.name = "seif",
+          .help =
+              "Ours: gauge-free sparsification, null space from first estimates, mean along a tree; constant "
+              "time.",
+          .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
+                      other_groups, relaxed_groups, tree_unknowns, tree_grain, tree_blocks},
+          .make = [=](const EstimatorSetup& setup, const Options& options) {
+            SeifOptions chosen;
+            chosen.theta_x = integer(options, theta_x);
+            chosen.theta_max = integer(options, theta_max);
+            chosen.first_estimates = integer(options, first_estimates);
+            chosen.relinearise_above = option<double>(options, relinearise_above.key);
+            chosen.closing_gate = option<double>(options, closing_gate.key);
+            chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
+            chosen.multilevel.other_groups = integer(options, other_groups);
+            chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
+            chosen.tree.most_unknowns = integer(options, tree_unknowns);
+            chosen.tree.most_blocks = integer(options, tree_blocks);
+            chosen.tree.grain = option<double>(options, tree_grain.key);
+            return std::make_unique<Seif>(setup, chosen);
+          }};
 }
 
 EstimatorType seif_gauge_free() {

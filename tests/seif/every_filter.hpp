@@ -13,10 +13,10 @@
 namespace seif::test {
 
 /// Not a name of the library: `seif` with its other mean.
-inline const std::string seif_by_tree = "seif_by_tree";
+inline const std::string seif_by_groups = "seif_by_groups";
 
 inline std::vector<std::string> every_filter() {
-  std::vector<std::string> names{seif_by_tree};
+  std::vector<std::string> names{seif_by_groups};
   const Registry registry = standard_estimators();
   for (const EstimatorType& type : registry.types()) names.push_back(type.name);
   return names;
@@ -28,10 +28,10 @@ inline std::string name_of(const testing::TestParamInfo<std::string>& filter) { 
 /// The filter with its defaults.
 inline std::unique_ptr<Estimator> make(const std::string& name, const EstimatorSetup& setup) {
   const Registry registry = standard_estimators();
-  const EstimatorType* type = registry.find(name == seif_by_tree ? "seif" : name);
+  const EstimatorType* type = registry.find(name == seif_by_groups ? "seif" : name);
   Options options;
   for (const OptionSpec& spec : type->options) options[spec.key] = spec.fallback;
-  if (name == seif_by_tree) options["mean_recovery"] = std::string("tree");
+  if (name == seif_by_groups) options["mean_recovery"] = std::string("multilevel");
   return type->make(setup, options);
 }
 

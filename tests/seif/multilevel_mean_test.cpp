@@ -265,7 +265,7 @@ TEST(MultilevelMean, TheResidualOfASingleGroupIsThatOfTheDenseMatrices) {
 void expect_exact_mean(int landmarks) {
   oracle::RandomDrive random(5);
   const EstimatorSetup setup{.start = test::start, .T_robot_sensor = {}, .random = std::mt19937_64(1)};
-  Seif multilevel(setup, {});
+  Seif multilevel(setup, {.mean_recovery = SeifMean::multilevel});
   Seif exact(setup, {.mean_recovery = SeifMean::exact});
   Pose2 truth = test::start.mean;
   for (int k = 0; k < 100; ++k) {
@@ -291,8 +291,8 @@ TEST(MultilevelMean, OfAMapOfTwoLandmarksIsExact) { expect_exact_mean(2); }
 TEST(MultilevelMean, IsTheSameToTheBitTheSecondTime) {
   RingDrive drive_a(120, 9);
   RingDrive drive_b(120, 9);
-  Seif a(drive_a.setup(), {});
-  Seif b(drive_b.setup(), {});
+  Seif a(drive_a.setup(), {.mean_recovery = SeifMean::multilevel});
+  Seif b(drive_b.setup(), {.mean_recovery = SeifMean::multilevel});
   for (int k = 0; k < 2 * drive_a.steps_for_a_round(); ++k) {
     drive_a.step(a);
     drive_b.step(b);

@@ -68,10 +68,10 @@ BENCHMARK(seif_update)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-void seif_by_tree_update(benchmark::State& state) {
-  update<Seif>(state, SeifOptions{.mean_recovery = SeifMean::tree});
+void seif_by_groups_update(benchmark::State& state) {
+  update<Seif>(state, SeifOptions{.mean_recovery = SeifMean::multilevel});
 }
-BENCHMARK(seif_by_tree_update)
+BENCHMARK(seif_by_groups_update)
     ->Arg(50)
     ->Arg(200)
     ->Arg(1000)
