@@ -147,4 +147,11 @@ void compare_estimators(Comparison& comparison) {
   }
 }
 
+int exit_code(const Comparison& comparison) {
+  if (comparison.interrupted) return 130;
+  int code = 0;
+  for (const ComparedRun& run : comparison.runs) code = std::max(code, exit_code(run.result));
+  return code;
+}
+
 }  // namespace harness

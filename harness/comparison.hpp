@@ -48,6 +48,12 @@ struct Comparison {
 /// Fills in `estimators` from `runs`.
 void compare_estimators(Comparison& comparison);
 
+/// A line for each run and each estimator in it that failed.
+std::string failures_of(const Comparison& comparison);
+
+/// The exit code of a command that compares: the worst of the runs', or 130 if it was interrupted.
+int exit_code(const Comparison& comparison);
+
 /// The whole comparison with every run's summary.
 std::string to_json(const Comparison& comparison);
 

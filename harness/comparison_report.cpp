@@ -99,6 +99,12 @@ std::string failures(const ComparedRun& run) {
 
 }  // namespace
 
+std::string failures_of(const Comparison& comparison) {
+  std::string text;
+  for (const ComparedRun& run : comparison.runs) text += failures(run);
+  return text;
+}
+
 std::string to_json(const Comparison& comparison) {
   Json json;
   json["name"] = comparison.name;
@@ -126,8 +132,7 @@ std::string comparison_board(const Comparison& comparison) {
   std::string text =
       fmt::format("{}, {} runs{}\n\n{}\n{}", comparison.name, comparison.runs.size(),
                   comparison.interrupted ? " (interrupted)" : "", text_table(accuracy), text_table(cost));
-  std::string failed;
-  for (const ComparedRun& run : comparison.runs) failed += failures(run);
+  const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;
 }
 
