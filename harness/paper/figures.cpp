@@ -17,7 +17,7 @@ namespace {
 
 constexpr double enlargement = 5.0;  // [-] of errors and ellipses, which are too small to see
 constexpr double sigmas = 2.0;       // [-]
-constexpr int panel = 380;           // [px]
+constexpr int panel = 300;           // [px]
 constexpr double margin = 1.5;       // [m] round the landmarks
 constexpr double faintest = 0.12;    // [-] share of its colour that the weakest link has
 
@@ -26,6 +26,7 @@ constexpr double faintest = 0.12;    // [-] share of its colour that the weakest
 constexpr const char* settings =
     "set style fill transparent solid 0.15\n"
     "set palette defined (0 'white', 1 'black')\nset cbrange [0:1]\nunset colorbox\n"
+    "set tmargin 2\nset bmargin 1.5\nset lmargin 4\nset rmargin 1\nset tics scale 0.4 font ',8'\n"
     "set border lc '#888888'\nset tics textcolor '#333333'\nset key off\n";
 
 std::string type_of(const Belief& belief) {
@@ -134,9 +135,9 @@ std::string map_axes(const Belief& belief) {
 }
 
 std::string map_panel(const Belief& belief, std::size_t number) {
-  const std::string title = title_of(belief, fmt::format("map, errors and 2 sigma x {}", enlargement));
+  const std::string title = title_of(belief, fmt::format("map; errors, 2 sigma x {}", enlargement));
   return fmt::format(
-      "{0}set title {1} noenhanced\nplot $marks{2} with vectors nohead lw 1 lc rgb {3}, "
+      "{0}set title {1} noenhanced font ',10'\nplot $marks{2} with vectors nohead lw 1 lc rgb {3}, "
       "$marks{2} using ($1+$3):($2+$4):5:6:7 with ellipses units xy fs lc rgb {3} lw 1, "
       "$robot{2} using ($1+$3):($2+$4):5:6:7 with ellipses units xy lc rgb 'black' lw 1.5, "
       "$marks{2} with points pt 7 ps 0.35 lc rgb 'black', "
@@ -146,7 +147,7 @@ std::string map_panel(const Belief& belief, std::size_t number) {
 
 std::string links_panel(const Belief& belief, std::size_t number) {
   return fmt::format(
-      "{}set title {} noenhanced\nplot $links{} with vectors nohead lw 1 lc rgb variable, "
+      "{}set title {} noenhanced font ',10'\nplot $links{} with vectors nohead lw 1 lc rgb variable, "
       "$robot_links{} with vectors nohead lw 2 lc rgb variable, "
       "$landmarks{} with points pt 7 ps 0.5 lc rgb '#555555', "
       "$heading{} with vectors filled head size 0.5,25 lw 2 lc rgb 'black'\n",
@@ -158,8 +159,8 @@ std::string matrix_panel(const Belief& belief, std::string_view name, std::strin
   const auto last = static_cast<double>(belief.covariance.rows()) - 0.5;
   return fmt::format(
       "set size ratio 1\nunset grid\nset xrange [-0.5:{0}]\nset yrange [{0}:-0.5]\n"
-      "set title {1} noenhanced\nplot ${2}{3} matrix with image\n",
-      last, title_of(belief, what), name, number);
+      "set title {1} noenhanced font ',10'\nplot ${2}{3} matrix with image\n",
+      last, gnuplot_text(std::string(what)), name, number);
 }
 
 std::string correlation_panel(const Belief& belief, std::size_t number) {
