@@ -44,6 +44,7 @@ int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   const std::string json = paper_json(plan, world, comparison);
   const std::string board = paper_board(plan, world, comparison);
   write_whole_file(plan.folder / "paper.json", json);
+  write_whole_file(plan.folder / "runs.csv", paper_runs_csv(comparison));
   write_whole_file(plan.folder / "times.json", paper_times_json(plan, comparison));
   write_whole_file(plan.folder / "paper.txt", board);
   if (!comparison.interrupted) {
@@ -89,8 +90,8 @@ void add_paper(CommandLine line) {
       "  seifbed paper --physics --runs 200 --jobs 2\n"
       "  seifbed paper --runs 100 --set estimators.seif_report.theta_x=10 --json | jq .estimators\n"
       "50 landmarks, 500 updates, six active landmarks, 1,000 runs. The folder gets paper.txt, paper.json,\n"
-      "times.json, world.yaml, and figures 1, 2 and 6 as PNG and SVG. docs/paper.md tells what differs from\n"
-      "the report.");
+      "runs.csv, times.json, world.yaml, and figures 1, 2 and 6 as PNG and SVG. docs/paper.md tells what\n"
+      "differs from the report.");
   auto arguments = std::make_shared<PaperArguments>();
   add_options(*command, *arguments);
   command->callback([=, &registry = line.registry, &code = line.exit_code] {

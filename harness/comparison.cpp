@@ -94,6 +94,7 @@ void compare_errors(std::span<const ComparedRun> runs, const std::string& baseli
                     EstimatorComparison& estimator) {
   const Values mse = collect(runs, estimator.name, landmark_mse);
   estimator.landmark_mse = mean_of(present(mse));
+  estimator.landmark_mse_median = median_of(present(mse));
   estimator.landmark_mse_ratio = paired_ratio(mse, collect(runs, baseline, landmark_mse));
   const Values rmse = collect(runs, estimator.name, aligned);
   estimator.landmark_aligned = mean_of(present(rmse));

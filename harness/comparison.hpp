@@ -24,6 +24,7 @@ struct EstimatorComparison {
   int runs = 0;                                  // [-] finished
   int failed = 0;                                // [-] in which it, or the run as a whole, failed
   std::optional<Estimate> landmark_mse;          // [m^2]
+  std::optional<double> landmark_mse_median;     // [m^2] of the runs
   std::optional<Estimate> landmark_mse_ratio;    // [-] over the baseline's
   std::optional<Estimate> landmark_aligned;      // [m] RMSE
   std::optional<Estimate> aligned_ratio;         // [-] mean over the runs of the ratio to the baseline's

@@ -27,6 +27,7 @@ Json estimator_json(const EstimatorComparison& estimator) {
   json["runs"] = estimator.runs;
   json["failed"] = estimator.failed;
   json["landmark_mse_m2"] = estimate(estimator.landmark_mse);
+  json["landmark_mse_median_m2"] = number(estimator.landmark_mse_median);
   json["landmark_mse_ratio"] = estimate(estimator.landmark_mse_ratio);
   json["landmark_rmse_aligned_m"] = estimate(estimator.landmark_aligned);
   json["landmark_rmse_aligned_ratio"] = estimate(estimator.aligned_ratio);

@@ -14,6 +14,9 @@ std::string paper_board(const PaperPlan& plan, const worlds::World& world, const
 /// The same bytes whatever the jobs.
 std::string paper_json(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison);
 
+/// A row for each run and estimator.
+std::string paper_runs_csv(const Comparison& comparison);
+
 /// What clocks have measured.
 std::string paper_times_json(const PaperPlan& plan, const Comparison& comparison);
 

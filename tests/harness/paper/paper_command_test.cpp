@@ -28,7 +28,8 @@ TEST(PaperCommand, TheAggregateAndTheFiguresHaveTheSameBytesWhateverTheJobs) {
   EXPECT_EQ(one.exit_code, 0) << one.errors;
   EXPECT_EQ(one.output, read_file(folder / "one" / "paper.txt") + "\nWritten to one\n");
   EXPECT_EQ(call(folder, small + "--jobs 3 --out three --quiet").output, "");
-  for (const char* file : {"paper.json", "world.yaml", "figure1.svg", "figure2.svg", "figure6.png"})
+  for (const char* file :
+       {"paper.json", "runs.csv", "world.yaml", "figure1.svg", "figure2.svg", "figure6.png"})
     EXPECT_EQ(read_file(folder / "one" / file), read_file(folder / "three" / file)) << file;
 }
 

@@ -70,9 +70,11 @@ TEST(PaperReport, PutsTheReportsFiguresBesideOurs) {
       std::string::npos)
       << text;
   // 14/3 -+ 4.302653 * 7/3.
-  expect_in(line_with(text, "EKF (ekf)", 1), {"3", "0", "4.67", "-5.37 to 14.71", "5.54 +- 0.67", "1.000"});
-  expect_in(line_with(text, "SEIF, constant time", 1), {"3", "0", "18.67", "-21.49 to 58.82", "6.35 +- 0.67",
-                                                        "4.000", "4.000 to 4.000", "1.146", "2.000"});
+  expect_in(line_with(text, "EKF (ekf)", 1),
+            {"3", "0", "4.67", "-5.37 to 14.71", "4.00", "5.54 +- 0.67", "1.000"});
+  expect_in(line_with(text, "SEIF, constant time", 1),
+            {"3", "0", "18.67", "-21.49 to 58.82", "16.00", "6.35 +- 0.67", "4.000", "4.000 to 4.000",
+             "1.146", "2.000"});
   expect_in(line_with(text, "EKF (ekf)", 2),
             {"1275.0", "1275.0 to 1275.0", "1275", "20.0", "O(N^2)", "O(N^2)"});
   // 502 -+ 4.302653 / sqrt(3).
@@ -109,6 +111,18 @@ TEST(PaperReport, JsonHasWhatTheTableHasAndNothingFromAClock) {
   EXPECT_EQ(text.find("_us"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(paper_times_json({}, example()))["estimators"]["ekf"]["update_p50_us"],
             20.0);
+}
+
+TEST(PaperReport, HasARowForEachRunAndEstimator) {
+  Comparison comparison = example();
+  comparison.runs.resize(1);
+  comparison.runs[0].result.summary.score.estimators = {score("ekf", 0.5, 1.25, 1275),
+                                                        score("mine", 2.0, 3.0, 7)};
+  comparison.runs[0].result.summary.score.estimators[1].nees_pose_final.reset();
+  EXPECT_EQ(paper_runs_csv(comparison),
+            "run,estimator,landmark_rmse_m,landmark_rmse_aligned_m,links,nees_pose,nees_landmark\n"
+            "example-1,ekf,0.5,0.25,1275,1.25,2.5\n"
+            "example-1,mine,2,1,7,,6\n");
 }
 
 TEST(PaperReport, HasATableWithoutRuns) {
