@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <thread>
 
 #include "harness/baseline.hpp"
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
 #include "harness/csv_writer.hpp"
+#include "harness/interrupt.hpp"
 #include "harness/paper/drawn_run.hpp"
 #include "harness/paper/paper.hpp"
 #include "harness/paper/paper_report.hpp"
@@ -26,6 +26,7 @@ struct PaperArguments {
 };
 
 int reproduce(PaperArguments arguments, const seif::Registry& registry) {
+  const InterruptGuard guard;
   PaperPlan& plan = arguments.plan;
   const bool tells = !arguments.json && !plan.quiet;
   plan.quiet = plan.quiet || arguments.json;
@@ -54,7 +55,7 @@ int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   std::string text;
   if (arguments.json) text = json;
   if (tells) text = fmt::format("{}\nWritten to {}\n", board, plan.folder.string());
-  return print_all(text, exit_code(comparison));
+  return print_all(text, InterruptGuard::flag() ? 130 : exit_code(comparison));
 }
 
 void add_options(CLI::App& command, PaperArguments& arguments) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "harness/paper/figures.hpp"
@@ -53,6 +54,7 @@ std::vector<Belief> drawn_beliefs(const PaperPlan& plan, const seif::Registry& r
   LastTruth truth;
   const RunResult result = execute_in_passing(run, &truth);
   if (!result.error.empty()) throw std::runtime_error(result.error);
+  if (result.summary.interrupted) throw std::runtime_error("interrupted");
   std::vector<Belief> beliefs;
   for (const LiveEstimator& estimator : run.believers->estimators)
     beliefs.push_back(belief_of(estimator, *run.log->landmarks, truth.pose()));

@@ -124,7 +124,7 @@ TEST_F(Paper, DrawsEachFigureAsPngAndAsSvgThatNeedsNoOtherFile) {
 }
 
 TEST_F(Paper, SaysWhyThereAreNoFigures) {
-  set_up({"duration_s=2", "sensors.landmark_sensor.false_detections=5"}, 1);
+  set_up({"duration_s=2", "sensors.landmark_sensor.false_detections_per_scan=5"}, 1);
   const std::string complaint = draw_figures(plan_, registry_);
   EXPECT_NE(complaint.find("no figures: the belief of ekf cannot be drawn: its map has a landmark"),
             std::string::npos)
