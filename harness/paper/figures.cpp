@@ -29,10 +29,6 @@ constexpr const char* settings =
     "set tmargin 2\nset bmargin 1.5\nset lmargin 4\nset rmargin 1\nset tics scale 0.4 font ',8'\n"
     "set border lc '#888888'\nset tics textcolor '#333333'\nset key off\n";
 
-std::string type_of(const Belief& belief) {
-  return belief.estimator == "seif_tree" ? "seif" : belief.estimator;
-}
-
 /// `share` of the colour on white paper.
 Rgb faded(Rgb colour, double share) {
   Rgb result = 0;
@@ -142,7 +138,7 @@ std::string map_panel(const Belief& belief, std::size_t number) {
       "$robot{2} using ($1+$3):($2+$4):5:6:7 with ellipses units xy lc rgb 'black' lw 1.5, "
       "$marks{2} with points pt 7 ps 0.35 lc rgb 'black', "
       "$heading{2} with vectors filled head size 0.5,25 lw 2 lc rgb 'black'\n",
-      map_axes(belief), title, number, gnuplot_colour(colour_of_estimator(type_of(belief))));
+      map_axes(belief), title, number, gnuplot_colour(colour_of_estimator(belief.estimator)));
 }
 
 std::string links_panel(const Belief& belief, std::size_t number) {
