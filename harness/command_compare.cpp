@@ -114,13 +114,6 @@ std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, co
   return planned;
 }
 
-int exit_code(const Comparison& comparison) {
-  if (comparison.interrupted) return 130;
-  int code = 0;
-  for (const ComparedRun& run : comparison.runs) code = std::max(code, exit_code(run.result));
-  return code;
-}
-
 int compare(CompareArguments arguments, const seif::Registry& registry) {
   Comparison comparison;
   const bool are_logs = std::filesystem::is_directory(arguments.inputs.front());

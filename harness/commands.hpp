@@ -27,6 +27,7 @@ void add_score(CommandLine line);
 void add_export(CommandLine line);
 void add_film(CommandLine line);
 void add_compare(CommandLine line);
+void add_paper(CommandLine line);
 void add_stress(CommandLine line);
 void add_sweep(CommandLine line);
 void add_merge(CommandLine line);

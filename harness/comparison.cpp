@@ -94,6 +94,7 @@ void compare_errors(std::span<const ComparedRun> runs, const std::string& baseli
                     EstimatorComparison& estimator) {
   const Values mse = collect(runs, estimator.name, landmark_mse);
   estimator.landmark_mse = mean_of(present(mse));
+  estimator.landmark_mse_median = median_of(present(mse));
   estimator.landmark_mse_ratio = paired_ratio(mse, collect(runs, baseline, landmark_mse));
   const Values rmse = collect(runs, estimator.name, aligned);
   estimator.landmark_aligned = mean_of(present(rmse));
@@ -145,6 +146,13 @@ void compare_estimators(Comparison& comparison) {
     compare_costs(runs, estimator);
     comparison.estimators.push_back(std::move(estimator));
   }
+}
+
+int exit_code(const Comparison& comparison) {
+  if (comparison.interrupted) return 130;
+  int code = 0;
+  for (const ComparedRun& run : comparison.runs) code = std::max(code, exit_code(run.result));
+  return code;
 }
 
 }  // namespace harness

@@ -24,6 +24,7 @@ struct EstimatorComparison {
   int runs = 0;                                  // [-] finished
   int failed = 0;                                // [-] in which it, or the run as a whole, failed
   std::optional<Estimate> landmark_mse;          // [m^2]
+  std::optional<double> landmark_mse_median;     // [m^2] of the runs
   std::optional<Estimate> landmark_mse_ratio;    // [-] over the baseline's
   std::optional<Estimate> landmark_aligned;      // [m] RMSE
   std::optional<Estimate> aligned_ratio;         // [-] mean over the runs of the ratio to the baseline's
@@ -47,6 +48,12 @@ struct Comparison {
 
 /// Fills in `estimators` from `runs`.
 void compare_estimators(Comparison& comparison);
+
+/// A line for each run and each estimator in it that failed.
+std::string failures_of(const Comparison& comparison);
+
+/// The exit code of a command that compares: the worst of the runs', or 130 if it was interrupted.
+int exit_code(const Comparison& comparison);
 
 /// The whole comparison with every run's summary.
 std::string to_json(const Comparison& comparison);

@@ -27,6 +27,7 @@ Json estimator_json(const EstimatorComparison& estimator) {
   json["runs"] = estimator.runs;
   json["failed"] = estimator.failed;
   json["landmark_mse_m2"] = estimate(estimator.landmark_mse);
+  json["landmark_mse_median_m2"] = number(estimator.landmark_mse_median);
   json["landmark_mse_ratio"] = estimate(estimator.landmark_mse_ratio);
   json["landmark_rmse_aligned_m"] = estimate(estimator.landmark_aligned);
   json["landmark_rmse_aligned_ratio"] = estimate(estimator.aligned_ratio);
@@ -99,6 +100,12 @@ std::string failures(const ComparedRun& run) {
 
 }  // namespace
 
+std::string failures_of(const Comparison& comparison) {
+  std::string text;
+  for (const ComparedRun& run : comparison.runs) text += failures(run);
+  return text;
+}
+
 std::string to_json(const Comparison& comparison) {
   Json json;
   json["name"] = comparison.name;
@@ -126,8 +133,7 @@ std::string comparison_board(const Comparison& comparison) {
   std::string text =
       fmt::format("{}, {} runs{}\n\n{}\n{}", comparison.name, comparison.runs.size(),
                   comparison.interrupted ? " (interrupted)" : "", text_table(accuracy), text_table(cost));
-  std::string failed;
-  for (const ComparedRun& run : comparison.runs) failed += failures(run);
+  const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;
 }
 

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   harness::add_export(line);
   harness::add_film(line);
   harness::add_compare(line);
+  harness::add_paper(line);
   harness::add_stress(line);
   harness::add_sweep(line);
   harness::add_merge(line);

@@ -8,6 +8,7 @@
 
 #include "harness/csv_writer.hpp"
 #include "harness/log_stream.hpp"
+#include "harness/run_folder.hpp"
 #include "harness/simulated_stream.hpp"
 #include "worlds/document.hpp"
 #include "worlds/merge.hpp"
@@ -56,6 +57,13 @@ PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World
 
 RunResult execute(PreparedRun& run, RunListener* follower) {
   return execute(*run.stream, *run.log, *run.believers, run.plan, follower);
+}
+
+RunResult execute_in_passing(PreparedRun& run, RunListener* follower) {
+  const TemporaryFolder folder;
+  run.plan.folder = folder.path();
+  run.plan.quiet = true;
+  return execute(run, follower);
 }
 
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {

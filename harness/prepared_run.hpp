@@ -28,6 +28,9 @@ PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World
 
 RunResult execute(PreparedRun& run, RunListener* follower = nullptr);
 
+/// Runs quietly in a folder of its own, which goes afterwards.
+RunResult execute_in_passing(PreparedRun& run, RunListener* follower = nullptr);
+
 /// Writes world.yaml to the folder of a run, and beside it what it needs, so that it runs again from there.
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved);
 

@@ -81,6 +81,8 @@ void Eseif::landmarks(std::span<const LandmarkId> landmarks, std::vector<Landmar
 
 void Eseif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
+Eigen::MatrixXd Eseif::whole_belief_matrix() const { return dense_Omega_of(state_); }
+
 std::vector<LandmarkEstimate> Eseif::map() const { return map_of(state_); }
 
 std::optional<MarginalCovariances> Eseif::marginal_covariances(std::span<const LandmarkId> landmarks) const {

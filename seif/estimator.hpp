@@ -114,6 +114,10 @@ class Estimator {
   /// length of that row alone.
   virtual void couplings(LandmarkId /*of*/, std::vector<Coupling>& out) const { out.clear(); }
 
+  /// Off the live path, at any cost: that matrix whole, [x y theta | landmarks in the order of map()].
+  /// (3+2N x 3+2N), symmetric; empty for BeliefMatrix::none.
+  virtual Eigen::MatrixXd whole_belief_matrix() const { return {}; }
+
   /// Off the live path, at any cost: the whole map, in the order in which the landmarks joined it.
   virtual std::vector<LandmarkEstimate> map() const = 0;
 

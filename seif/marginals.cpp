@@ -125,6 +125,11 @@ std::vector<LandmarkEstimate> map_of(const InformationState& state) {
   return map;
 }
 
+Eigen::MatrixXd dense_Omega_of(const InformationState& state) {
+  const Eigen::MatrixXd lower = state.full_Omega();
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
 void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
                   std::vector<LandmarkEstimate>& out) {
   out.clear();

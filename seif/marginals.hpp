@@ -39,6 +39,9 @@ class DiagonalBlocksOfInverse {
 /// All means, in the order of the slots.
 std::vector<LandmarkEstimate> map_of(const InformationState& state);
 
+/// All of Omega. (3+2N x 3+2N)
+Eigen::MatrixXd dense_Omega_of(const InformationState& state);
+
 /// As Estimator::landmarks, in constant time for each.
 void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
                   std::vector<LandmarkEstimate>& out);

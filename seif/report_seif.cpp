@@ -61,6 +61,8 @@ void ReportSeif::landmarks(std::span<const LandmarkId> landmarks, std::vector<La
 
 void ReportSeif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
+Eigen::MatrixXd ReportSeif::whole_belief_matrix() const { return dense_Omega_of(state_); }
+
 std::vector<LandmarkEstimate> ReportSeif::map() const { return map_of(state_); }
 
 std::optional<MarginalCovariances> ReportSeif::marginal_covariances(

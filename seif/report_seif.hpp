@@ -47,6 +47,7 @@ class ReportSeif final : public Estimator {
   void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
   BeliefMatrix belief_matrix() const override { return BeliefMatrix::information; }
   void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
+  Eigen::MatrixXd whole_belief_matrix() const override;
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;

@@ -182,6 +182,8 @@ void Seif::landmarks(std::span<const LandmarkId> landmarks, std::vector<Landmark
 
 void Seif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
 
+Eigen::MatrixXd Seif::whole_belief_matrix() const { return dense_Omega_of(state_); }
+
 std::vector<LandmarkEstimate> Seif::map() const {
   std::vector<LandmarkEstimate> map;
   for (int slot = 0; slot < state_.landmark_count(); ++slot) {

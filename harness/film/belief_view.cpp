@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <exception>
 
+#include "harness/ellipse.hpp"
 #include "harness/film/paint.hpp"
 
 namespace harness {
@@ -28,12 +29,6 @@ constexpr std::size_t most_dots = 4000;      // [-] of landmarks; any
 constexpr std::size_t most_ellipses = 1000;  // [-] likewise, and lines of error
 
 Vector3d above_ground(const Vector2d& p) { return {p.x(), p.y(), 0.02}; }
-
-/// The semi-axes of the ellipse of so many standard deviations.
-Matrix2d ellipse_axes(const Matrix2d& covariance, double sigmas) {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(covariance);
-  return sigmas * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
 
 /// Whether a landmark is among that share of all of them: always the same ones, and more the larger it is.
 bool is_among(seif::LandmarkId id, double share) {

@@ -63,11 +63,8 @@ std::string execute_cell(const SweepFolder& sweep, std::size_t index, const seif
   const worlds::LoadResult loaded = worlds::load_world(
       sweep.world(), overrides_of(sweep.plan, cell_at(sweep.plan, index)), estimator_schemas(registry));
   if (!loaded.world) return worlds::to_string(loaded.problems.front());
-  const TemporaryFolder folder;
   PreparedRun run = prepare_run(*loaded.world, registry);
-  run.plan.folder = folder.path();
-  run.plan.quiet = true;
-  result = execute(run);
+  result = execute_in_passing(run);
   return result.error;
 }
 

@@ -164,32 +164,36 @@ TEST_P(BadCalls, EndWithCodeTwoAndAReason) {
 
 INSTANTIATE_TEST_SUITE_P(
     CommandLine, BadCalls,
-    testing::Values(BadCall{"", "subcommand is required"}, BadCall{"run", "WORLD is required"},
-                    BadCall{"run nothing.yaml", "nothing.yaml"}, BadCall{"run world.yaml --bogus", "--bogus"},
-                    BadCall{"run world.yaml --seed -1", "seed=-1"},
-                    BadCall{"run world.yaml --out full", "not empty"},
-                    BadCall{"run world.yaml --set estimators.ekf.bogus=1", "unknown key 'bogus'"},
-                    BadCall{"run world.yaml --duration -3", "duration_s"},
-                    BadCall{"run world.yaml --set drive.pose_from=nobody", "nobody"},
-                    BadCall{"validate nothing.yaml", "nothing.yaml"},
-                    BadCall{"replay nothing", "no such folder"},
-                    BadCall{"replay full", "odometry.csv: cannot be read"},
-                    BadCall{"compare nothing.yaml", "nothing.yaml"},
-                    BadCall{"compare world.yaml --seeds 1..x", "'x' is no seed"},
-                    BadCall{"compare world.yaml --seeds 5..1", "5..1 is no range"},
-                    BadCall{"compare world.yaml --seeds 1,", "'' is no seed"},
-                    BadCall{"compare world.yaml --baseline nobody", "no estimator 'nobody'"},
-                    BadCall{"compare world.yaml --estimators ekf", "--estimators is for logs"},
-                    BadCall{"compare world.yaml --jobs 0", "--jobs"},
-                    BadCall{"compare world.yaml --keep full", "not empty"},
-                    BadCall{"compare world.yaml world.yaml", "one world file, or log folders"},
-                    BadCall{"compare full --seeds 1..2", "--seeds is for worlds"},
-                    BadCall{"compare full", "odometry.csv: cannot be read"}));
+    testing::Values(
+        BadCall{"", "subcommand is required"}, BadCall{"run", "WORLD is required"},
+        BadCall{"run nothing.yaml", "nothing.yaml"}, BadCall{"run world.yaml --bogus", "--bogus"},
+        BadCall{"run world.yaml --seed -1", "seed=-1"}, BadCall{"run world.yaml --out full", "not empty"},
+        BadCall{"run world.yaml --set estimators.ekf.bogus=1", "unknown key 'bogus'"},
+        BadCall{"run world.yaml --duration -3", "duration_s"},
+        BadCall{"run world.yaml --set drive.pose_from=nobody", "nobody"},
+        BadCall{"validate nothing.yaml", "nothing.yaml"}, BadCall{"replay nothing", "no such folder"},
+        BadCall{"replay full", "odometry.csv: cannot be read"},
+        BadCall{"compare nothing.yaml", "nothing.yaml"},
+        BadCall{"compare world.yaml --seeds 1..x", "'x' is no seed"},
+        BadCall{"compare world.yaml --seeds 5..1", "5..1 is no range"},
+        BadCall{"compare world.yaml --seeds 1,", "'' is no seed"},
+        BadCall{"compare world.yaml --baseline nobody", "no estimator 'nobody'"},
+        BadCall{"compare world.yaml --estimators ekf", "--estimators is for logs"},
+        BadCall{"compare world.yaml --jobs 0", "--jobs"},
+        BadCall{"compare world.yaml --keep full", "not empty"},
+        BadCall{"compare world.yaml world.yaml", "one world file, or log folders"},
+        BadCall{"compare full --seeds 1..2", "--seeds is for worlds"}, BadCall{"paper --runs 0", "--runs"},
+        BadCall{"paper --runs many", "--runs"}, BadCall{"paper --seed -1", "--seed"},
+        BadCall{"paper --jobs 0", "--jobs"}, BadCall{"paper --out full", "not empty"},
+        BadCall{"paper --set duration_s=-1", "duration_s"},
+        BadCall{"paper --set estimators.seif_report.theta=6", "theta_x"},
+        BadCall{"paper --set 'estimators={seif: {}}'", "no estimator 'ekf'"},
+        BadCall{"paper world.yaml", "world.yaml"}, BadCall{"compare full", "odometry.csv: cannot be read"}));
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
   const TemporaryFolder folder;
-  for (const std::string command : {"run", "replay", "score", "export", "film", "compare", "stress", "sweep",
-                                    "merge", "validate", "schema", "estimators"}) {
+  for (const std::string command : {"run", "replay", "score", "export", "film", "compare", "paper", "stress",
+                                    "sweep", "merge", "validate", "schema", "estimators"}) {
     const Called help = call(folder, command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;

@@ -47,6 +47,7 @@ TEST(Comparison, TakesMeansOverTheRunsThatAnEstimatorFinished) {
   EXPECT_EQ(a.runs, 3);
   EXPECT_EQ(a.failed, 0);
   EXPECT_DOUBLE_EQ(a.landmark_mse->value, (1.0 + 4.0 + 9.0) / 3);
+  EXPECT_EQ(a.landmark_mse_median, 4.0);
   EXPECT_DOUBLE_EQ(a.landmark_aligned->value, 1.0);
   EXPECT_DOUBLE_EQ(a.links->value, 20.0);
   EXPECT_EQ(a.links_max, 60.0);
@@ -57,6 +58,7 @@ TEST(Comparison, TakesMeansOverTheRunsThatAnEstimatorFinished) {
   EXPECT_EQ(b.runs, 2);
   EXPECT_EQ(b.failed, 1);
   EXPECT_DOUBLE_EQ(b.landmark_mse->value, (4.0 + 36.0) / 2);
+  EXPECT_EQ(b.landmark_mse_median, 20.0);
   EXPECT_DOUBLE_EQ(b.nees_pose->value, 6.0);
   EXPECT_DOUBLE_EQ(b.nees_landmark->value, 3.0);
   EXPECT_EQ(b.links_max, 120.0);

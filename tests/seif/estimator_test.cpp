@@ -65,6 +65,7 @@ TEST(Estimator, TellsOfNoMatrixUnlessItHasOne) {
   std::vector<Coupling> couplings(3);
   filter.couplings(no_landmark, couplings);
   EXPECT_TRUE(couplings.empty());
+  EXPECT_EQ(filter.whole_belief_matrix().size(), 0);
 }
 
 class LandmarksOf : public testing::TestWithParam<std::string> {};
@@ -97,6 +98,41 @@ TEST_P(LandmarksOf, AreThoseOfTheMapInTheOrderAskedFor) {
       EXPECT_EQ(found[i].landmark, expected[i].landmark);
       EXPECT_EQ(found[i].mean, expected[i].mean);  // to the bit
     }
+  }
+}
+
+class WholeBeliefMatrix : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(All, WholeBeliefMatrix, testing::ValuesIn(test::every_filter()), test::name_of);
+
+TEST_P(WholeBeliefMatrix, HasTheMarginalsAndTheCouplingsOfTheFilter) {
+  RingDrive drive(60, 8);
+  const auto filter = test::make(GetParam(), drive.setup());
+  for (int k = 0; k < drive.steps_for_a_round() / 2; ++k) drive.step(*filter);
+
+  const Eigen::MatrixXd M = filter->whole_belief_matrix();
+  std::vector<LandmarkId> ids;
+  for (const LandmarkEstimate& estimate : filter->map()) ids.push_back(estimate.landmark);
+  ASSERT_EQ(M.rows(), 3 + 2 * static_cast<Eigen::Index>(ids.size()));
+  EXPECT_EQ(M, M.transpose());
+
+  const bool is_covariance = filter->belief_matrix() == BeliefMatrix::covariance;
+  const Eigen::MatrixXd Sigma =
+      is_covariance ? M : M.llt().solve(Eigen::MatrixXd::Identity(M.rows(), M.cols())).eval();
+  const auto marginals = filter->marginal_covariances(ids);
+  ASSERT_TRUE(marginals);
+  EXPECT_TRUE((Sigma.topLeftCorner<3, 3>().isApprox(marginals->pose, 1e-6)));
+  std::vector<Coupling> couplings;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Eigen::Index row = 3 + 2 * static_cast<Eigen::Index>(i);
+    EXPECT_TRUE((Sigma.block<2, 2>(row, row).isApprox(marginals->landmarks[i], 1e-6))) << ids[i];
+    filter->couplings(ids[i], couplings);
+    std::size_t linked = (M.block<2, 3>(row, 0).array() != 0.0).any() ? 1 : 0;
+    for (std::size_t j = 0; j < ids.size(); ++j) {
+      const Eigen::Index col = 3 + 2 * static_cast<Eigen::Index>(j);
+      if (j != i && (M.block<2, 2>(row, col).array() != 0.0).any()) ++linked;
+    }
+    EXPECT_EQ(couplings.size(), linked) << ids[i];
   }
 }
 

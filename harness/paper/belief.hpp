@@ -1,0 +1,44 @@
+// The whole belief of an estimator when a run has ended, beside the truth, and the network that it is.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/live_loop.hpp"
+#include "harness/score.hpp"
+
+namespace harness {
+
+/// Matrices are (3+2N x 3+2N), [x y theta | landmarks], landmarks in the order in which they joined the map.
+struct Belief {
+  std::string estimator;  // its name
+  PosePair pose;
+  std::vector<PointPair> landmarks;
+  Eigen::MatrixXd covariance;
+  Eigen::MatrixXd information;
+};
+
+/// Throws std::runtime_error if the estimator has failed, keeps no matrix, or one that is not positive
+/// definite, or if its map has a landmark that the world does not have.
+Belief belief_of(const LiveEstimator& estimator, std::span<const TrueLandmark> truth,
+                 const seif::Pose2& true_pose);
+
+/// |M_ij| / sqrt(M_ii M_jj): of a covariance the correlations. The diagonal of `M` is positive.
+Eigen::MatrixXd normalised(const Eigen::MatrixXd& M);
+
+inline constexpr int robot = -1;  // for a landmark's number
+
+/// A block of the information matrix that is not zero.
+struct NetworkLink {
+  int from = robot;       // a landmark's number in the belief, or the robot
+  int to = 0;             // a landmark's number, larger than `from`
+  double strength = 0.0;  // [-] in (0, 1]: its largest normalised entry
+};
+
+/// All links between landmarks, and of the robot, the weakest first. `normalised_information` is
+/// (3+2N x 3+2N).
+std::vector<NetworkLink> links_of(const Eigen::MatrixXd& normalised_information);
+
+}  // namespace harness

@@ -1,0 +1,65 @@
+// Section 4 of the 2002 report, again: its filters and ours on the same streams, over many seeds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/comparison.hpp"
+#include "seif/registry.hpp"
+#include "worlds/load.hpp"
+
+namespace harness {
+
+/// A row of our table.
+struct PaperRow {
+  std::string_view estimator;  // its name in the world
+  std::string_view settings;   // in YAML
+  std::string_view title;      // for people
+  std::string_view update;     // how its time grows
+};
+
+/// Those of the report's table, and then the others.
+inline constexpr std::array<PaperRow, 9> paper_rows = {{
+    {"ekf", "{}", "EKF", "O(N^2)"},
+    {"seif_exact", "{theta_x: 6}", "SEIF, exact mean", "Cholesky"},
+    {"seif_report", "{theta_x: 6, K: 10}", "SEIF, constant time", "O(1)"},
+    {"seif", "{}", "ours", "O(log N)"},
+    {"seif_tree", "{type: seif, mean_recovery: tree}", "ours, along a tree", "O(log N)"},
+    {"seif_gauge_free", "{}", "our rule, exact mean", "Cholesky"},
+    {"seif_modified", "{}", "modified rule, exact mean", "Cholesky"},
+    {"eseif", "{}", "exactly sparse, exact mean", "Cholesky"},
+    {"eif", "{}", "dense information filter", "O(N^3)"},
+}};
+
+/// Null for an estimator that is in no row.
+const PaperRow* paper_row(std::string_view estimator);
+
+struct PaperPlan {
+  std::int64_t runs = 1'000;
+  std::uint64_t first_seed = 1;  // those of the other runs follow
+  int jobs = 1;                  // [-] runs at the same time
+  bool physics = false;          // in Bullet instead of by kinematics alone
+  std::vector<std::string> overrides;
+  std::filesystem::path folder;  // with world.yaml
+  bool quiet = false;
+};
+
+/// What of the set-up differs from worlds/report2002.yaml: path.to.key=value. What the caller sets comes
+/// last.
+std::vector<std::string> paper_overrides(const PaperPlan& plan);
+
+/// Loads the world of the first seed.
+worlds::LoadResult load_paper_world(const PaperPlan& plan, const seif::Registry& registry);
+
+/// The world of another seed, from world.yaml. Throws BadInput if it cannot be loaded.
+worlds::World paper_world(const PaperPlan& plan, std::uint64_t seed, const seif::Registry& registry);
+
+/// All runs. Ratios are to the EKF's.
+Comparison run_paper(const PaperPlan& plan, const std::string& name, const seif::Registry& registry);
+
+}  // namespace harness

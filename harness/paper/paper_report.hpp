@@ -1,0 +1,23 @@
+// What came out beside what the report has: as a table for people and as JSON.
+#pragma once
+
+#include <string>
+
+#include "harness/comparison.hpp"
+#include "harness/paper/paper.hpp"
+
+namespace harness {
+
+/// The tables, what their columns mean, and what failed.
+std::string paper_board(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison);
+
+/// The same bytes whatever the jobs.
+std::string paper_json(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison);
+
+/// A row for each run and estimator.
+std::string paper_runs_csv(const Comparison& comparison);
+
+/// What clocks have measured.
+std::string paper_times_json(const PaperPlan& plan, const Comparison& comparison);
+
+}  // namespace harness
