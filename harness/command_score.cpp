@@ -31,7 +31,7 @@ std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const 
                                          const std::vector<std::string>& names,
                                          const std::filesystem::path& to, const seif::Registry& registry) {
   constexpr double shorter_than_any = 1e-6;  // [s]
-  Rebuilding rebuilding{arguments.folder, to, names, {}};
+  Rebuilding rebuilding{.run = arguments.folder, .to = to, .estimators = names};
   if (arguments.every_update) rebuilding.interval = shorter_than_any;
   const auto go_without = [&](const std::exception& error) {
     if (arguments.every_update) throw;

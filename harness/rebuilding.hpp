@@ -52,22 +52,23 @@ class RebuiltConsistency final : public RunListener {
   std::vector<Gathered> gathered_;        // by estimator
 };
 
-/// How a run is to be replayed.
-struct Rebuilding {
-  std::filesystem::path run;            // the folder of the run
-  std::filesystem::path to;             // an empty folder
-  std::vector<std::string> estimators;  // by their names in the run, or types
-  std::optional<double> interval;       // [s] between scoring times; nothing: the run's
-};
-
 /// A replay that does not come to what was recorded.
 class NotReplayed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Replays a run. Throws BadInput; std::runtime_error if it was interrupted; and NotReplayed, unless `look`
-/// is given: that is for other estimators than those of the run, and sees them as they are in the end.
+/// How a run is to be replayed.
+struct Rebuilding {
+  std::filesystem::path run;            // the folder of the run
+  std::filesystem::path to;             // an empty folder
+  std::vector<std::string> estimators;  // by their names in the run, or types
+  std::optional<double> interval = {};  // [s] between scoring times; nothing: the run's
+  bool is_other = false;                // estimators that are not the run's: nothing recorded to come to
+};
+
+/// Replays a run; `look` sees the estimators as they are in the end. Throws BadInput, NotReplayed, and
+/// std::runtime_error if it was interrupted.
 std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& summary,
                                   const seif::Registry& registry,
                                   const std::function<void(const Believers&)>& look = {});

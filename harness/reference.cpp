@@ -53,7 +53,7 @@ ReferenceScore score_batch(const std::filesystem::path& run, const Summary& summ
     throw BadInput(fmt::format("--reference {}: the run has an estimator of this name", name));
   const TemporaryFolder folder;
   const std::vector<RebuiltScore> rebuilt =
-      rebuild({run, folder.path(), {name}, never}, summary, registry,
+      rebuild({run, folder.path(), {name}, never, true}, summary, registry,
               [&](const Believers& believers) { write_trajectory(folder.path(), believers); });
   DetailChoices of_the_replay = choices;
   of_the_replay.consistency.clear();
