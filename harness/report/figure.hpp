@@ -14,7 +14,7 @@ namespace harness {
 /// What breaks a line.
 inline constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
-enum class Mark { line, thin_line, points, crosses };
+enum class Mark { line, thin_line, points, circles, crosses };
 
 /// Curves of one name in a figure belong together: they have one entry in its legend.
 struct Curve {

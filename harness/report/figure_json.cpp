@@ -34,6 +34,8 @@ constexpr const char* name_of(Mark mark) {
       return "thin";
     case Mark::points:
       return "points";
+    case Mark::circles:
+      return "circles";
     case Mark::crosses:
       return "crosses";
   }

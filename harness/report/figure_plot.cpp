@@ -93,6 +93,8 @@ constexpr const char* style_of(Mark mark) {
       return "lines lw 1";
     case Mark::points:
       return "points pt 7 ps 0.6";
+    case Mark::circles:
+      return "points pt 6 ps 1.1";
     case Mark::crosses:
       return "points pt 2 ps 0.7";
   }

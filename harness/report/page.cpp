@@ -167,6 +167,7 @@ std::string to_html(const Page& page, const std::filesystem::path& file, std::st
                               {"style", std::string(page_css())},
                               {"facts", facts_html(page.facts)},
                               {"tables", joined(page.tables, table_html)},
+                              {"details", joined(page.details, table_html)},
                               {"figures", joined(page.figures, figure_html)},
                               {"matrices", matrices_html(page)},
                               {"film", film_html(page.film, file)},

@@ -33,7 +33,8 @@ struct Listing {
 struct Page {
   std::string title = {};
   std::vector<Fact> facts = {};
-  std::vector<Table> tables = {};
+  std::vector<Table> tables = {};   // above the figures
+  std::vector<Table> details = {};  // below them
   std::vector<Figure> figures = {};
   std::vector<MatrixFigure> matrices = {};
   std::string matrices_note = {};

@@ -17,7 +17,9 @@ function shade(colour) {
 function colourise(chart) {
   chart.data.datasets.forEach((set, i) => {
     const colour = shade(chart.figure.curves[i].colour);
-    Object.assign(set, { borderColor: colour, backgroundColor: colour, pointBorderColor: colour });
+    const isHollow = chart.figure.curves[i].mark === "circles";
+    const fill = isHollow ? "transparent" : colour;
+    Object.assign(set, { borderColor: colour, backgroundColor: fill, pointBorderColor: colour });
   });
   for (const scale of Object.values(chart.options.scales)) {
     scale.grid.color = css("--rule");
@@ -28,14 +30,16 @@ function colourise(chart) {
   chart.options.plugins.legend.labels.color = css("--ink");
 }
 
-function dataset(curve) {
+/// The last one lies on top.
+function dataset(curve, index, { length }) {
   const isLine = curve.mark === "line" || curve.mark === "thin";
   return {
     label: curve.name,
+    order: length - index,
     data: curve.x.map((x, i) => ({ x, y: curve.y[i] })),
     showLine: isLine,
     borderWidth: curve.mark === "line" ? 1.8 : 1,
-    pointRadius: isLine ? 0 : 2.5,
+    pointRadius: isLine ? 0 : curve.mark === "circles" ? 4 : 2.5,
     pointHoverRadius: isLine ? 3 : 5,
     pointHitRadius: 4,
     pointStyle: curve.mark === "crosses" ? "crossRot" : "circle",
@@ -80,9 +84,17 @@ function scale(figure, axis) {
       callback: tick(figure, axis),
       maxRotation: isCategories ? 50 : 0,
       autoSkipPadding: 12,
-      ...(isCategories ? { stepSize: 1, autoSkip: false } : {}),
+      includeBounds: false,
     },
-    ...(isCategories ? { min: -0.5, max: figure.categories.length - 0.5 } : {}),
+    ...(isCategories
+      ? {
+          min: -0.5,
+          max: figure.categories.length - 0.5,
+          afterBuildTicks(built) {
+            built.ticks = figure.categories.map((_, value) => ({ value }));
+          },
+        }
+      : {}),
   };
 }
 
@@ -90,9 +102,12 @@ function scale(figure, axis) {
 function legend() {
   return {
     position: "bottom",
+    reverse: true,  // Chart.js begins with what lies on top
     labels: {
       usePointStyle: true,
       pointStyle: "rectRounded",
+      generateLabels: (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart).map((item) =>
+        ({ ...item, fillStyle: shade(chart.figure.curves[item.datasetIndex].colour), lineWidth: 0 })),
       filter: (item, data) => data.datasets.findIndex((set) => set.label === item.text) === item.datasetIndex,
     },
     onClick(_, item, { chart }) {

@@ -75,14 +75,15 @@ void add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, F
   Points points;
   for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks))
     add(landmarks[i].position.x(), landmarks[i].position.y(), points);
-  figure.curves.push_back(curve_of(truth, Mark::points, std::move(points)));
+  figure.curves.push_back(curve_of(truth, Mark::circles, std::move(points)));
 }
 
 Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
   Figure figure{
       .id = "map", .title = "Trajectories and maps", .x = {"x [m]"}, .y = {"y [m]"}, .is_map = true};
   figure.caption =
-      "Dots are the landmarks as they are, crosses where the estimators have them at the end, each with its "
+      "Circles are the landmarks as they are, crosses where the estimators have them at the end, each with "
+      "its "
       "2-sigma ellipse. Of large maps at most 4,000 landmarks and 500 ellipses are drawn, evenly spread.";
   const Drawn truth{"truth", palette::truth};
   if (std::filesystem::exists(folder / "truth.tum")) figure.curves.push_back(trajectory(folder, truth));

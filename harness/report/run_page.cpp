@@ -52,22 +52,27 @@ std::vector<Fact> facts_of(const Summary& summary) {
   return facts;
 }
 
-std::vector<Table> tables_of(const Summary& summary, const RunDetails& details) {
-  const std::vector<std::vector<TextRow>> more = details_tables(details);
+std::vector<Table> tables_of(const Summary& summary) {
   std::vector<Table> tables = {
       {"Scores", accuracy_table(summary),
        "NEES is the squared error over what the filter believes its variance to be, for each degree of "
-       "freedom: 1 is "
-       "right. Aligned errors are those after the rigid motion that makes them smallest."},
-      {"Cost of an update", cost_table(summary), {}},
-      {"The map", more[0], "The share of NEES that lie in the 95 % band, of so many; 95 is right."},
-      {"As seen from the robot", more[1],
-       "NEES of the landmarks in the robot's frame, and NIS, the normalised innovation squared: 1 is right."},
-      {"Relative pose error along the path", more[2], {}}};
+       "freedom: 1 is right. Aligned errors are those after the rigid motion that makes them smallest."},
+      {"Cost of an update", cost_table(summary)}};
   std::erase_if(tables, [](const Table& table) { return table.rows.size() < 2; });
-  if (more.size() > 3)
-    tables.push_back({"Error of the position after a loop closure [m]", more[3],
+  return tables;
+}
+
+std::vector<Table> tables_of(const RunDetails& details) {
+  const std::vector<std::vector<TextRow>> rows = details_tables(details);
+  std::vector<Table> tables = {
+      {"The map", rows[0], "Inside: the share of NEES, of so many, that lie in the 95 % band."},
+      {"As seen from the robot", rows[1],
+       "NEES of the landmarks in the robot's frame, and NIS, the normalised innovation squared: 1 is right."},
+      {"Relative pose error along the path", rows[2]}};
+  if (details.closures > 0)
+    tables.push_back({"Error of the position after a loop closure [m]", rows[3],
                       fmt::format("Root mean square over {} closures.", details.closures)});
+  std::erase_if(tables, [](const Table& table) { return table.rows.size() < 2; });
   return tables;
 }
 
@@ -143,7 +148,8 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
   page.facts = facts_of(summary);
   page.figures = run_figures(folder, drawn(names, types_of(folder, names, registry)));
   if (replays) add_replayed(folder, summary, registry, details, page);
-  page.tables = tables_of(summary, details);
+  page.tables = tables_of(summary);
+  page.details = tables_of(details);
   page.film = find_film(folder);
   if (std::filesystem::exists(folder / "world.yaml"))
     page.listings.push_back(

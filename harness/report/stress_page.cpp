@@ -116,7 +116,7 @@ Page page_of_json(const Json& json) {
       {"Landmarks for each square metre", fmt::format("{}", json.at("density_per_m2").get<double>())},
       {"Made by version", json.at("version").get<std::string>()}};
   if (json.at("interrupted").get<bool>()) page.facts.push_back({"Interrupted", "before its end"});
-  page.tables = {times_of(json), whole_of(json), estimators_of(json), slopes_of(json)};
+  page.details = {times_of(json), whole_of(json), estimators_of(json), slopes_of(json)};
   const std::vector<StressRow> rows = rows_of(json);
   if (!rows.empty()) page.figures = {scaling_figure(scaling_of(rows))};
   return page;

@@ -28,11 +28,10 @@ const PlottedScore plotted[] = {
     {"nees_landmark_final", "nees-map", "NEES of the map at the end", {"mean NEES [-]", true}},
     {"links", "links", "Links at the end", {"mean links [-]"}}};
 
-std::string name_of(const SweepPlan& plan, const SettingStatistics& setting) {
-  std::string name;
-  for (std::size_t i = 0; i < plan.axes.size(); ++i)
-    name += fmt::format("{}{}={}", i == 0 ? "" : ", ", plan.axes[i].path, setting.values[i]);
-  return name.empty() ? "all seeds" : name;
+std::string paths_of(const SweepPlan& plan) {
+  std::vector<std::string> paths;
+  for (const SweepAxis& axis : plan.axes) paths.push_back(axis.path);
+  return fmt::format("{}", fmt::join(paths, ", "));
 }
 
 std::vector<Drawn> estimators_of(const Aggregate& aggregate) {
@@ -62,9 +61,11 @@ void add_interval(double x, const ConfidenceInterval& interval, Curve& curve) {
 Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
                     const std::vector<Drawn>& estimators) {
   Figure figure{.id = score.id, .title = score.title, .y = score.axis};
+  figure.x.label = paths_of(aggregate.plan);
   figure.caption = "Means over the seeds with their 95 % confidence intervals (Student's).";
   for (const SettingStatistics& setting : aggregate.settings)
-    figure.categories.push_back(name_of(aggregate.plan, setting));
+    figure.categories.push_back(setting.values.empty() ? "all seeds"
+                                                       : fmt::format("{}", fmt::join(setting.values, ", ")));
   const auto count = static_cast<double>(estimators.size());
   for (std::size_t k = 0; k < estimators.size(); ++k) {
     const double aside = 0.6 * (static_cast<double>(k) - 0.5 * (count - 1.0)) / count;
