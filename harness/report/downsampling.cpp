@@ -25,9 +25,10 @@ Points smallest_and_largest(Points points, std::size_t bins) {
     if (end == begin) continue;  // nothing in this stretch
     const auto at = [&](std::size_t i) { return points.y.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto [low, high] = std::minmax_element(at(begin), at(end));
-    const auto [earlier, later] = std::minmax(low - at(0), high - at(0));
-    keep(points, static_cast<std::size_t>(earlier), kept);
-    if (later != earlier) keep(points, static_cast<std::size_t>(later), kept);
+    const auto lowest = static_cast<std::size_t>(low - at(0));
+    const auto highest = static_cast<std::size_t>(high - at(0));
+    keep(points, points.y[lowest] < points.y[highest] ? std::min(lowest, highest) : lowest, kept);
+    if (points.y[lowest] < points.y[highest]) keep(points, std::max(lowest, highest), kept);
     begin = end;
   }
   return kept;
