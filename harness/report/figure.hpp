@@ -23,6 +23,7 @@ struct Curve {
   Mark mark = Mark::line;
   std::vector<double> x = {};
   std::vector<double> y = {};  // as many
+  bool is_hidden = false;      // until it is asked for; not on paper
 };
 
 struct Axis {

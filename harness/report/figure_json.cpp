@@ -43,9 +43,9 @@ constexpr const char* name_of(Mark mark) {
 }
 
 std::string curve_json(const Figure& figure, const Curve& curve) {
-  return fmt::format(R"({{"name":{},"colour":"#{:06x}","mark":"{}","x":{},"y":{}}})", text(curve.name),
-                     curve.colour, name_of(curve.mark), numbers(curve.x, figure.x.is_logarithmic),
-                     numbers(curve.y, figure.y.is_logarithmic));
+  return fmt::format(R"({{"name":{},"colour":"#{:06x}","mark":"{}","hidden":{},"x":{},"y":{}}})",
+                     text(curve.name), curve.colour, name_of(curve.mark), curve.is_hidden,
+                     numbers(curve.x, figure.x.is_logarithmic), numbers(curve.y, figure.y.is_logarithmic));
 }
 
 Json axis_json(const Axis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }

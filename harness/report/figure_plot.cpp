@@ -144,7 +144,9 @@ std::string plot_of(const Figure& figure) {
 
 std::string draw(const Figure& figure, const std::filesystem::path& folder) {
   const PixelSize size = figure.is_map ? PixelSize{1000, 800} : PixelSize{1000, 640};
-  return run_gnuplot(data_of(figure), plot_of(figure), size, folder, figure.id);
+  Figure shown = figure;
+  std::erase_if(shown.curves, [](const Curve& curve) { return curve.is_hidden; });
+  return run_gnuplot(data_of(shown), plot_of(shown), size, folder, figure.id);
 }
 
 std::string draw(const MatrixFigure& figure, const std::filesystem::path& folder) {

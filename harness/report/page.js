@@ -36,6 +36,7 @@ function dataset(curve, index, { length }) {
   return {
     label: curve.name,
     order: length - index,
+    hidden: curve.hidden,
     data: curve.x.map((x, i) => ({ x, y: curve.y[i] })),
     showLine: isLine,
     borderWidth: curve.mark === "line" ? 1.8 : 1,

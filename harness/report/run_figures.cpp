@@ -99,11 +99,14 @@ Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>&
 /// Distance and angle between estimate and truth.
 std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::vector<Drawn> moving) {
   std::array<Figure, 2> figures = {
-      Figure{.id = "position-error", .title = "Error of the position", .x = {"time [s]"}, .y = {"error [m]"}},
+      Figure{.id = "position-error",
+             .title = "Error of the position",
+             .x = {"time [s]"},
+             .y = {"error [m]", true}},
       Figure{
           .id = "heading-error", .title = "Error of the heading", .x = {"time [s]"}, .y = {"error [deg]"}}};
   figures[0].caption = "Distance from the true position after each update.";
-  figures[1].caption = "Estimated less true heading after each update.";
+  figures[1].caption = "Estimated less true heading after each update; odometry's is hidden at first.";
   moving.insert(moving.begin(), {"odometry", palette::odometry});
   for (const Drawn& one : moving) {
     std::array<Points, 2> points;
@@ -118,6 +121,7 @@ std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::ve
           curve_of(one, Mark::line, smallest_and_largest(std::move(points.at(i)), most_bins)));
     }
   }
+  if (figures[1].curves.size() > 1) figures[1].curves.front().is_hidden = true;  // as large as a circle
   return figures;
 }
 
