@@ -33,8 +33,12 @@ std::string look_at(const TemporaryFolder& folder, const std::string& browser,
   std::string html = read_file(page);
   html.insert(html.rfind("</body>"), fmt::format(R"(<pre id="looked"></pre><script>
 const result = {{}};
-{{{}}}
-setTimeout(() => document.getElementById("looked").textContent = btoa(JSON.stringify(result)), 500);
+const until = async (condition) => {{
+  for (let frame = 0; frame < 300 && !condition(); ++frame) await new Promise(requestAnimationFrame);
+}};
+(async () => {{
+{}
+}})().then(() => document.getElementById("looked").textContent = btoa(JSON.stringify(result)));
 </script>)",
                                                  script));
   write_file(folder / "looked.html", html);
@@ -42,7 +46,7 @@ setTimeout(() => document.getElementById("looked").textContent = btoa(JSON.strin
       folder,
       fmt::format("{} --headless --no-sandbox --disable-gpu --user-data-dir=profile --window-size={},900 "
                   "--blink-settings=preferredColorScheme={} --enable-logging=stderr "
-                  "--virtual-time-budget=4000 --dump-dom looked.html",
+                  "--virtual-time-budget=20000 --dump-dom looked.html",
                   browser, screen.width, screen.is_dark ? 0 : 1));
   const std::string looked = between(called.output, "<pre id=\"looked\">", "</pre>");
   if (looked.empty()) throw std::runtime_error("the page told nothing: " + called.errors);

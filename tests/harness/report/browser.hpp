@@ -17,8 +17,8 @@ struct Screen {
   bool is_dark = false;
 };
 
-/// Opens a page with a script at its end, and returns what that has put into `result` half a second later, as
-/// JSON.
+/// Opens a page with a script at its end, and returns as JSON what that has put into `result`. The script may
+/// `await until(() => ..)`: for at most 300 frames.
 /// Throws std::runtime_error, with the console, if nothing came.
 std::string look_at(const TemporaryFolder& folder, const std::string& browser,
                     const std::filesystem::path& page, const std::string& script, const Screen& screen = {});

@@ -216,11 +216,11 @@ TEST_F(ReportInBrowser, HidesAllCurvesOfANameAndTellsOfAPoint) {
     const box = chart.legend.legendHitBoxes[index];
     at("click", box.left + 5, box.top + 5);
     const { x, y } = chart.getDatasetMeta(0).data[0];
-    setTimeout(() => {
-      result.after = visible();
-      at("mousemove", x, y);
-    }, 100);
-    setTimeout(() => result.tip = chart.tooltip.opacity > 0 ? chart.tooltip.body[0].lines[0] : "", 300);)");
+    await until(() => visible().length < result.before.length);
+    result.after = visible();
+    at("mousemove", x, y);
+    await until(() => chart.tooltip?.opacity > 0);
+    result.tip = chart.tooltip.body[0].lines[0];)");
   EXPECT_EQ(seen["entries"], (nlohmann::json{"truth", "odometry", "ekf", "seif_report"}));
   nlohmann::json expected = nlohmann::json::array();
   for (const nlohmann::json& name : seen["before"]) {
