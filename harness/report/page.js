@@ -40,7 +40,7 @@ function dataset(curve, index, { length }) {
     data: curve.x.map((x, i) => ({ x, y: curve.y[i] })),
     showLine: isLine,
     borderWidth: curve.mark === "line" ? 1.8 : 1,
-    pointRadius: isLine ? 0 : curve.mark === "circles" ? 4 : 2.5,
+    pointRadius: isLine ? 0 : (curve.mark === "circles" ? 4 : 2.5) * (curve.x.length > 500 ? 0.5 : 1),
     pointHoverRadius: isLine ? 3 : 5,
     pointHitRadius: 4,
     pointStyle: curve.mark === "crosses" ? "crossRot" : "circle",

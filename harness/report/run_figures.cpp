@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "harness/csv_reader.hpp"
 #include "harness/log_stream.hpp"
@@ -56,12 +57,16 @@ void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance,
   curve.y.push_back(gap);
 }
 
-void add_map(const std::filesystem::path& folder, const Drawn& estimator, Figure& figure) {
-  const std::vector<MapRecord> map = read_map(folder, estimator.name);
+using Ids = std::set<seif::LandmarkId>;
+
+void add_map(const std::filesystem::path& folder, const Drawn& estimator, const Ids& left_out,
+             Figure& figure) {
+  std::vector<MapRecord> map = read_map(folder, estimator.name);
+  std::erase_if(map, [&](const MapRecord& landmark) { return left_out.contains(landmark.landmark); });
   Points points;
   for (const std::size_t i : spread_sample(map.size(), most_landmarks))
     add(map[i].mean.x(), map[i].mean.y(), points);
-  Curve ellipses{estimator.name, estimator.colour, Mark::thin_line, {}, {}};
+  Curve ellipses{estimator.name, estimator.colour, Mark::thin_line};
   for (const std::size_t i : spread_sample(map.size(), most_ellipses)) {
     if (map[i].covariance) add_ellipse(map[i].mean, *map[i].covariance, ellipses);
   }
@@ -69,13 +74,19 @@ void add_map(const std::filesystem::path& folder, const Drawn& estimator, Figure
   if (!ellipses.x.empty()) figure.curves.push_back(std::move(ellipses));
 }
 
-void add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
-  if (!std::filesystem::exists(file)) return;
+/// Returns those that are left out, so that none of them is drawn where an estimator has it.
+Ids add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
+  Ids left_out;
+  if (!std::filesystem::exists(file)) return left_out;
   const std::vector<TrueLandmark> landmarks = read_landmarks(file);
+  for (const TrueLandmark& landmark : landmarks) left_out.insert(landmark.landmark);
   Points points;
-  for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks))
+  for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks)) {
     add(landmarks[i].position.x(), landmarks[i].position.y(), points);
+    left_out.erase(landmarks[i].landmark);
+  }
   figure.curves.push_back(curve_of(truth, Mark::circles, std::move(points)));
+  return left_out;
 }
 
 Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
@@ -87,11 +98,11 @@ Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>&
       "2-sigma ellipse. Of large maps at most 4,000 landmarks and 500 ellipses are drawn, evenly spread.";
   const Drawn truth{"truth", palette::truth};
   if (std::filesystem::exists(folder / "truth.tum")) figure.curves.push_back(trajectory(folder, truth));
-  add_true_landmarks(folder / "landmarks.csv", truth, figure);
+  const Ids left_out = add_true_landmarks(folder / "landmarks.csv", truth, figure);
   figure.curves.push_back(trajectory(folder, {"odometry", palette::odometry}));
   for (const Drawn& estimator : estimators) {
     figure.curves.push_back(trajectory(folder, estimator));
-    add_map(folder, estimator, figure);
+    add_map(folder, estimator, left_out, figure);
   }
   return figure;
 }
