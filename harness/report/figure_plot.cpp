@@ -6,62 +6,18 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <span>
-#include <system_error>
 
-#include "harness/film/piped_program.hpp"
+#include "harness/gnuplot.hpp"
 
 namespace harness {
 
 namespace {
 
-struct Terminal {
-  const char* name;
-  const char* extension;
-};
-
-constexpr Terminal terminals[] = {{"pngcairo", ".png"}, {"svg", ".svg"}};
-
-struct PixelSize {
-  int width;
-  int height;
-};
-
-/// In gnuplot's single quotes, between which a quote is the only sign that means anything.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char sign : text) {
-    if (sign == '\'') result += '\'';
-    result += sign >= 0 && sign < ' ' ? ' ' : sign;
-  }
-  return result + "'";
-}
-
-/// Runs a script that sets and plots, once for each kind of file.
-std::string run_gnuplot(const std::string& data, const std::string& plot, PixelSize size,
-                        const std::filesystem::path& folder, const std::string& name) {
-  const std::string path = std::filesystem::absolute(folder).string();
-  if (std::ranges::any_of(path, [](char sign) { return sign >= 0 && sign < ' '; }))
-    return "no plot: gnuplot cannot write to a folder with such a name";
-  std::string script = data;
-  for (const Terminal& terminal : terminals) {
-    // An absolute path: one that began with a bar would be a command.
-    script +=
-        fmt::format("set terminal {} size {},{} font 'DejaVu Sans,11' background 'white'\nset output {}\n{}",
-                    terminal.name, size.width, size.height,
-                    quoted((std::filesystem::absolute(folder) / (name + terminal.extension)).string()), plot);
-  }
-  script += "set output\n";
-  try {
-    PipedProgram gnuplot({"gnuplot"});
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(script.data());
-    if (gnuplot.send(std::span(bytes, script.size())) && gnuplot.finish()) return {};
-    static_cast<void>(gnuplot.finish());
-    return fmt::format("no plot: gnuplot says: {}", gnuplot.complaint());
-  } catch (const std::system_error& error) {
-    if (error.code() != std::errc::no_such_file_or_directory) throw;
-    return "no plot: gnuplot is missing (Debian's package gnuplot-nox)";
-  }
+/// Control characters as spaces, between quotes.
+std::string quoted(std::string text) {
+  std::ranges::replace_if(
+      text, [](char sign) { return sign >= 0 && sign < ' '; }, ' ');
+  return gnuplot_text(text);
 }
 
 bool is_drawn(const Figure& figure, double x, double y) {
@@ -134,8 +90,8 @@ std::string plot_of(const Figure& figure) {
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const Curve& curve = figure.curves[i];
     const std::string title = named.insert(curve.name).second ? "title " + quoted(curve.name) : "notitle";
-    text += fmt::format("{}$curve{} with {} lc rgb '#{:06x}' {}", i == 0 ? "" : ", ", i, style_of(curve.mark),
-                        curve.colour, title);
+    text += fmt::format("{}$curve{} with {} lc rgb {} {}", i == 0 ? "" : ", ", i, style_of(curve.mark),
+                        gnuplot_colour(curve.colour), title);
   }
   return text + '\n';
 }
@@ -143,10 +99,14 @@ std::string plot_of(const Figure& figure) {
 }  // namespace
 
 std::string draw(const Figure& figure, const std::filesystem::path& folder) {
-  const PixelSize size = figure.is_map ? PixelSize{1000, 800} : PixelSize{1000, 640};
   Figure shown = figure;
   std::erase_if(shown.curves, [](const Curve& curve) { return curve.is_hidden; });
-  return run_gnuplot(data_of(shown), plot_of(shown), size, folder, figure.id);
+  return draw_picture({.name = figure.id,
+                       .width = 1000,
+                       .height = figure.is_map ? 800 : 640,
+                       .settings = data_of(shown),
+                       .plot = plot_of(shown)},
+                      folder);
 }
 
 std::string draw(const MatrixFigure& figure, const std::filesystem::path& folder) {
@@ -162,7 +122,8 @@ std::string draw(const MatrixFigure& figure, const std::filesystem::path& folder
       "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset cbrange [0:255]\n"
       "set palette defined (0 'white', 255 '#0f1a29')\nplot $matrix matrix with image pixels\n",
       quoted(figure.title), static_cast<double>(figure.size) - 0.5, static_cast<double>(figure.size) - 0.5);
-  return run_gnuplot(data, plot, {640, 680}, folder, figure.id);
+  return draw_picture({.name = figure.id, .width = 640, .height = 680, .settings = data, .plot = plot},
+                      folder);
 }
 
 }  // namespace harness

@@ -1,6 +1,6 @@
 #include "harness/report/run_figures.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "harness/csv_reader.hpp"
+#include "harness/ellipse.hpp"
 #include "harness/log_stream.hpp"
 #include "harness/report/downsampling.hpp"
 #include "harness/score/chi_square.hpp"
@@ -41,15 +42,12 @@ Curve trajectory(const std::filesystem::path& folder, const Drawn& which) {
   return curve_of(which, Mark::line, thinned(std::move(points), most_poses));
 }
 
-/// Two standard deviations about the mean: m + 2 L u with L L' = P and u on the unit circle.
 void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance, Curve& curve) {
   constexpr int corners = 24;
-  const Eigen::LLT<Eigen::Matrix2d> llt(covariance);
-  if (llt.info() != Eigen::Success) return;
+  const Eigen::Matrix2d axes = ellipse_axes(covariance, 2.0);
   for (int i = 0; i <= corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
-    const Eigen::Vector2d p =
-        mean + llt.matrixL() * Eigen::Vector2d(2.0 * std::cos(angle), 2.0 * std::sin(angle));
+    const Eigen::Vector2d p = mean + axes * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     curve.x.push_back(p.x());
     curve.y.push_back(p.y());
   }
