@@ -17,7 +17,7 @@ inline constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 enum class Mark { line, thin_line, points, circles, crosses };
 
 /// Curves of one name in a figure belong together: they have one entry in its legend.
-struct Curve {
+struct FigureCurve {
   std::string name = {};
   Rgb colour = palette::truth;
   Mark mark = Mark::line;
@@ -26,7 +26,7 @@ struct Curve {
   bool is_hidden = false;      // until it is asked for; not on paper
 };
 
-struct Axis {
+struct FigureAxis {
   std::string label = {};
   bool is_logarithmic = false;  // what is not above zero is left out then
 };
@@ -42,12 +42,12 @@ struct Figure {
   std::string id = {};  // letters, digits and '-': also the name of its files
   std::string title = {};
   std::string caption = {};
-  Axis x = {};
-  Axis y = {};
+  FigureAxis x = {};
+  FigureAxis y = {};
   bool is_map = false;                       // metres are as long along both axes
   std::vector<Band> bands = {};              // along x
   std::vector<std::string> categories = {};  // names of x = 0, 1, 2, ..; empty: x is a number
-  std::vector<Curve> curves = {};
+  std::vector<FigureCurve> curves = {};
 };
 
 /// A symmetric matrix as a picture.

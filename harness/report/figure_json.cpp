@@ -42,13 +42,13 @@ constexpr const char* name_of(Mark mark) {
   return "";
 }
 
-std::string curve_json(const Figure& figure, const Curve& curve) {
+std::string curve_json(const Figure& figure, const FigureCurve& curve) {
   return fmt::format(R"({{"name":{},"colour":"#{:06x}","mark":"{}","hidden":{},"x":{},"y":{}}})",
                      text(curve.name), curve.colour, name_of(curve.mark), curve.is_hidden,
                      numbers(curve.x, figure.x.is_logarithmic), numbers(curve.y, figure.y.is_logarithmic));
 }
 
-Json axis_json(const Axis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }
+Json axis_json(const FigureAxis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }
 
 }  // namespace
 
@@ -59,7 +59,7 @@ std::string to_json(const Figure& figure) {
   for (const Band& band : figure.bands)
     json["bands"].push_back({{"label", band.label}, {"low", band.low}, {"high", band.high}});
   std::string curves;
-  for (const Curve& curve : figure.curves)
+  for (const FigureCurve& curve : figure.curves)
     curves += fmt::format("{}{}", curves.empty() ? "" : ",", curve_json(figure, curve));
   std::string whole = text(json);
   whole.pop_back();  // its closing brace

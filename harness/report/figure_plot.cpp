@@ -29,7 +29,7 @@ bool is_drawn(const Figure& figure, double x, double y) {
 std::string data_of(const Figure& figure) {
   std::string text;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    const Curve& curve = figure.curves[i];
+    const FigureCurve& curve = figure.curves[i];
     fmt::format_to(std::back_inserter(text), "$curve{} << EOD\n", i);
     for (std::size_t k = 0; k < curve.x.size(); ++k) {
       is_drawn(figure, curve.x[k], curve.y[k])
@@ -88,7 +88,7 @@ std::string plot_of(const Figure& figure) {
   std::string text = settings_of(figure) + "plot ";
   std::set<std::string> named;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    const Curve& curve = figure.curves[i];
+    const FigureCurve& curve = figure.curves[i];
     const std::string title = named.insert(curve.name).second ? "title " + quoted(curve.name) : "notitle";
     text += fmt::format("{}$curve{} with {} lc rgb {} {}", i == 0 ? "" : ", ", i, style_of(curve.mark),
                         gnuplot_colour(curve.colour), title);
@@ -100,7 +100,7 @@ std::string plot_of(const Figure& figure) {
 
 std::string draw(const Figure& figure, const std::filesystem::path& folder) {
   Figure shown = figure;
-  std::erase_if(shown.curves, [](const Curve& curve) { return curve.is_hidden; });
+  std::erase_if(shown.curves, [](const FigureCurve& curve) { return curve.is_hidden; });
   return draw_picture({.name = figure.id,
                        .width = 1000,
                        .height = figure.is_map ? 800 : 640,

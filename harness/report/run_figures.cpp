@@ -24,7 +24,7 @@ constexpr std::size_t most_landmarks = 4'000;  // [-] of a map
 constexpr std::size_t most_ellipses = 500;     // [-] of a map
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-Curve curve_of(const Drawn& estimator, Mark mark, Points points) {
+FigureCurve curve_of(const Drawn& estimator, Mark mark, Points points) {
   return {estimator.name, estimator.colour, mark, std::move(points.x), std::move(points.y)};
 }
 
@@ -35,14 +35,14 @@ void add(double x, double y, Points& points) {
   points.y.push_back(y);
 }
 
-Curve trajectory(const std::filesystem::path& folder, const Drawn& which) {
+FigureCurve trajectory(const std::filesystem::path& folder, const Drawn& which) {
   Points points;
   for (const TimedPose& pose : read_trajectory(folder, which.name))
     add(pose.T_world_robot.x, pose.T_world_robot.y, points);
   return curve_of(which, Mark::line, thinned(std::move(points), most_poses));
 }
 
-void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance, Curve& curve) {
+void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance, FigureCurve& curve) {
   constexpr int corners = 24;
   const Eigen::Matrix2d axes = ellipse_axes(covariance, 2.0);
   for (int i = 0; i <= corners; ++i) {
@@ -64,7 +64,7 @@ void add_map(const std::filesystem::path& folder, const Drawn& estimator, const 
   Points points;
   for (const std::size_t i : spread_sample(map.size(), most_landmarks))
     add(map[i].mean.x(), map[i].mean.y(), points);
-  Curve ellipses{estimator.name, estimator.colour, Mark::thin_line};
+  FigureCurve ellipses{estimator.name, estimator.colour, Mark::thin_line};
   for (const std::size_t i : spread_sample(map.size(), most_ellipses)) {
     if (map[i].covariance) add_ellipse(map[i].mean, *map[i].covariance, ellipses);
   }

@@ -18,7 +18,7 @@ struct PlottedScore {
   const char* name;
   const char* id;
   const char* title;
-  Axis axis;
+  FigureAxis axis;
 };
 
 const PlottedScore plotted[] = {
@@ -46,7 +46,7 @@ std::vector<Drawn> estimators_of(const Aggregate& aggregate) {
 }
 
 /// An upright line with a short one at either end.
-void add_interval(double x, const ConfidenceInterval& interval, Curve& curve) {
+void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& curve) {
   constexpr double half_cap = 0.02;
   for (const auto& [px, py] : {std::pair(x - half_cap, interval.low), std::pair(x + half_cap, interval.low),
                                std::pair(gap, gap), std::pair(x, interval.low), std::pair(x, interval.high),
@@ -69,8 +69,8 @@ Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
   const auto count = static_cast<double>(estimators.size());
   for (std::size_t k = 0; k < estimators.size(); ++k) {
     const double aside = 0.6 * (static_cast<double>(k) - 0.5 * (count - 1.0)) / count;
-    Curve means{estimators[k].name, estimators[k].colour, Mark::points, {}, {}};
-    Curve intervals{estimators[k].name, estimators[k].colour, Mark::line, {}, {}};
+    FigureCurve means{estimators[k].name, estimators[k].colour, Mark::points, {}, {}};
+    FigureCurve intervals{estimators[k].name, estimators[k].colour, Mark::line, {}, {}};
     for (std::size_t i = 0; i < aggregate.settings.size(); ++i) {
       const auto& all = aggregate.settings[i].estimators;
       const auto estimator = std::ranges::find(all, estimators[k].name, &EstimatorStatistics::name);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -42,9 +43,9 @@ class FiguresOfRun : public testing::Test {
     return found == figures.end() ? Figure{} : *found;
   }
 
-  static const Curve& curve(const Figure& figure, const std::string& name, Mark mark) {
+  static const FigureCurve& curve(const Figure& figure, const std::string& name, Mark mark) {
     return *std::ranges::find_if(figure.curves,
-                                 [&](const Curve& c) { return c.name == name && c.mark == mark; });
+                                 [&](const FigureCurve& c) { return c.name == name && c.mark == mark; });
   }
 
   TemporaryFolder folder;
@@ -53,7 +54,7 @@ class FiguresOfRun : public testing::Test {
 TEST_F(FiguresOfRun, HoldErrorsAndScoresAndTimesByHand) {
   write(3);
   EXPECT_EQ(curve(figure("position-error"), "ekf", Mark::line).y, (std::vector<double>{5, 2}));
-  const Curve heading = curve(figure("heading-error"), "ekf", Mark::line);
+  const FigureCurve heading = curve(figure("heading-error"), "ekf", Mark::line);
   EXPECT_NEAR(heading.y[1], 60.0, 1e-9);
   EXPECT_TRUE(curve(figure("heading-error"), "odometry", Mark::line).is_hidden);
   EXPECT_EQ(curve(figure("nees-pose"), "ekf", Mark::line).x, (std::vector<double>{1}));
@@ -65,7 +66,7 @@ TEST_F(FiguresOfRun, HoldErrorsAndScoresAndTimesByHand) {
 
 TEST_F(FiguresOfRun, EllipsesAreOfTwoStandardDeviations) {
   write(1);
-  const Curve ellipse = curve(figure("map"), "ekf", Mark::thin_line);
+  const FigureCurve ellipse = curve(figure("map"), "ekf", Mark::thin_line);
   const Eigen::Matrix2d P{{0.04, 0.01}, {0.01, 0.09}};
   double right = 0.0;
   for (std::size_t i = 0; i + 1 < ellipse.x.size(); ++i) {
@@ -80,7 +81,7 @@ TEST_F(FiguresOfRun, EllipsesAreOfTwoStandardDeviations) {
 TEST_F(FiguresOfRun, OfALargeMapTheSameLandmarksAreDrawnByAll) {
   write(5'000);
   const Figure map = figure("map");
-  const Curve truth = curve(map, "truth", Mark::circles);
+  const FigureCurve truth = curve(map, "truth", Mark::circles);
   EXPECT_EQ(truth.x.size(), 4'000U);
   EXPECT_EQ(curve(map, "ekf", Mark::crosses).x, truth.x);
   EXPECT_EQ(
