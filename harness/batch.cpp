@@ -35,6 +35,7 @@ void Batch::measurement_update(const seif::Scan& scan, const seif::StageDone& do
   guide_->measurement_update(scan, ignore);
   if (!is_certain(since_last_pose_)) slam_.motions.push_back(std::exchange(since_last_pose_, {}));
   const seif::Pose2 T_pose_sensor = since_last_pose_.T_previous_current * T_robot_sensor_;
+  scan_poses_.push_back({slam_.pose_count() - 1, since_last_pose_.T_previous_current});
   for (const seif::Observation& observation : scan.observations) {
     slam_.sightings.push_back(
         {slam_.pose_count() - 1, landmark_number(observation.landmark), T_pose_sensor, observation});
@@ -72,8 +73,8 @@ seif::Counts Batch::counts() const {
 }
 
 std::size_t Batch::memory_bytes() const {
-  return guide_->memory_bytes() + bytes_of(slam_.motions) + bytes_of(slam_.sightings) + bytes_of(ids_) +
-         index_.memory_bytes();
+  return guide_->memory_bytes() + bytes_of(slam_.motions) + bytes_of(slam_.sightings) +
+         bytes_of(scan_poses_) + bytes_of(ids_) + index_.memory_bytes();
 }
 
 std::vector<seif::LandmarkEstimate> Batch::map() const {
@@ -96,6 +97,31 @@ std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
     marginals.landmarks.push_back(now.Sigma->block<2>(slam_.row_of_landmark(index_.find(landmark).value())));
   }
   return marginals;
+}
+
+std::optional<std::vector<seif::JointCovariance>> Batch::joint_covariances(
+    std::span<const seif::LandmarkId> landmarks) const {
+  if (!solved_) return std::nullopt;
+  const std::optional<seif::MarginalCovariances> marginals = marginal_covariances(landmarks);
+  const auto columns =
+      seif::columns_of_inverse(solved_->optimum.Omega, slam_.row_of_pose(slam_.pose_count() - 1));
+  if (!marginals || !columns) return std::nullopt;
+  const Eigen::Matrix3d F =
+      predict_pose(solved_->optimum.poses.back(), since_last_pose_).J_wrt_pose;  // of the last stretch
+  std::vector<seif::JointCovariance> joint;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const int row = slam_.row_of_landmark(index_.find(landmarks[i]).value());
+    joint.push_back(seif::joint_covariance(marginals->pose, F * columns->middleRows<2>(row).transpose(),
+                                           marginals->landmarks[i]));
+  }
+  return joint;
+}
+
+std::vector<seif::Pose2> Batch::trajectory() const {
+  std::vector<seif::Pose2> poses;
+  for (const ScanPose& scan : scan_poses_)
+    poses.push_back(solved().optimum.poses[static_cast<std::size_t>(scan.pose)] * scan.T_pose_robot);
+  return poses;
 }
 
 seif::EstimatorType batch_estimator(const seif::Registry& registry) {

@@ -34,11 +34,24 @@ class Batch final : public seif::Estimator {
   std::optional<seif::MarginalCovariances> marginal_covariances(
       std::span<const seif::LandmarkId> landmarks) const override;
 
+  /// Nothing unless it was solved for since the last update.
+  std::optional<std::vector<seif::JointCovariance>> joint_covariances(
+      std::span<const seif::LandmarkId> landmarks) const override;
+
+  /// The optimum's poses at all scans so far. Throws as map() does.
+  std::vector<seif::Pose2> trajectory() const;
+
  private:
   /// What follows from the data; gone when more of it comes.
   struct Solved {
     FullSlamOptimum optimum;
     std::optional<seif::DiagonalBlocksOfInverse> Sigma;  // nothing: not positive definite
+  };
+
+  /// Where the robot was at a scan.
+  struct ScanPose {
+    int pose = 0;  // the number of the pose before it
+    seif::Pose2 T_pose_robot;
   };
 
   int landmark_number(seif::LandmarkId landmark);
@@ -47,7 +60,8 @@ class Batch final : public seif::Estimator {
   std::unique_ptr<seif::Estimator> guide_;
   seif::Pose2 T_robot_sensor_;
   FullSlam slam_;
-  seif::Odometry since_last_pose_;     // not yet a motion of slam_
+  seif::Odometry since_last_pose_;  // not yet a motion of slam_
+  std::vector<ScanPose> scan_poses_;
   std::vector<seif::LandmarkId> ids_;  // by number
   seif::LandmarkIndex index_;
   int active_landmarks_ = 0;  // [-] in the latest scan

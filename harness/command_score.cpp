@@ -6,7 +6,8 @@
 
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
-#include "harness/replay_settings.hpp"
+#include "harness/rebuilding.hpp"
+#include "harness/reference.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/score/details.hpp"
 #include "harness/scoreboard.hpp"
@@ -18,27 +19,32 @@ namespace {
 struct ScoreArguments {
   std::string folder;
   DetailChoices details;
+  std::string reference;  // an estimator that is scored beside those of the run; empty: none
   bool every_update = false;
+  bool no_replay = false;
   bool json = false;
 };
 
-/// Replays the run, with its consistency scored after every update.
-void replay_into(const std::filesystem::path& to, const std::filesystem::path& run_folder,
-                 const std::vector<std::string>& estimators, const Summary& summary,
-                 const seif::Registry& registry) {
+/// By a replay into an empty folder. A run that does not come to the same estimates again, or whose
+/// estimators this program does not have, goes without, unless all updates were asked for.
+std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const Summary& summary,
+                                         const std::vector<std::string>& names,
+                                         const std::filesystem::path& to, const seif::Registry& registry) {
   constexpr double shorter_than_any = 1e-6;  // [s]
-  const worlds::LoadResult settings =
-      load_replay_settings(run_folder, {estimators, {}, fmt::format("{}", summary.seed)}, registry);
-  if (!settings.world) throw BadInput(worlds::to_string(settings.problems.front()));
-  PreparedRun run = prepare_replay(run_folder, *settings.world, registry);
-  run.plan.folder = to;
-  run.plan.scoring.interval = shorter_than_any;
-  const RunResult result = execute(run);
-  if (result.summary.interrupted) throw std::runtime_error("interrupted");
-  if (result.summary.trajectory_hash != summary.trajectory_hash)
-    throw std::runtime_error(
-        fmt::format("{}: does not replay to the same estimates; it was made by version {}",
-                    run_folder.string(), summary.version));
+  Rebuilding rebuilding{.run = arguments.folder, .to = to, .estimators = names};
+  if (arguments.every_update) rebuilding.interval = shorter_than_any;
+  const auto go_without = [&](const std::exception& error) {
+    if (arguments.every_update) throw;
+    fmt::print(stderr, "seifbed: no NIS and no NEES from the robot: {}\n", error.what());
+    return std::vector<RebuiltScore>(names.size());
+  };
+  try {
+    return rebuild(rebuilding, summary, registry);
+  } catch (const NotReplayed& error) {
+    return go_without(error);
+  } catch (const BadInput& error) {
+    return go_without(error);
+  }
 }
 
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
@@ -47,13 +53,19 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   std::vector<std::string> names;
   for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
   summary.score = score_folder(folder, names, summary.rpe_interval);
+  const TemporaryFolder replayed;
+  std::vector<RebuiltScore> rebuilt(names.size());
+  if (!arguments.no_replay) rebuilt = rebuilt_scores(arguments, summary, names, replayed.path(), registry);
   DetailChoices choices = arguments.details;
-  std::optional<TemporaryFolder> replayed;
-  if (arguments.every_update) {
-    choices.consistency = replayed.emplace().path();
-    replay_into(choices.consistency, folder, names, summary, registry);
+  if (arguments.every_update) choices.consistency = replayed.path();
+  RunDetails details = score_details(folder, names, choices);
+  for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
+  if (!arguments.reference.empty()) {
+    const ReferenceScore reference = score_batch(folder, summary, arguments.details, registry);
+    summary.score.estimators.push_back(reference.score);
+    summary.failures.emplace_back();
+    details.estimators.push_back(reference.details);
   }
-  const RunDetails details = score_details(folder, names, choices);
   if (arguments.json) return print_all(to_json(summary, details), 0);
   return print_all(scoreboard(summary) + '\n' + details_board(details), 0);
 }
@@ -67,7 +79,9 @@ void add_score(CommandLine line) {
       "  seifbed score runs/courtyard-1\n"
       "  seifbed score runs/loop-1 --rpe-m 1,10,100 --away-s 60\n"
       "  seifbed score runs/report2002-1 --every-update --json | jq .estimators.ekf.nees_pose_inside\n"
-      "Nothing is simulated. What the scores mean is described in docs/scores.md.");
+      "  seifbed score runs/courtyard-1 --reference batch\n"
+      "Nothing is simulated; innovations and joint covariances are rebuilt by a replay. What the scores mean "
+      "is described in docs/scores.md.");
   auto arguments = std::make_shared<ScoreArguments>();
   command->add_option("RUN", arguments->folder, "Folder of a run or of a replay")->required();
   command
@@ -81,8 +95,17 @@ void add_score(CommandLine line) {
           "--away-s", arguments->details.away,
           "How long a landmark was out of sight when seeing it again closes a loop [s]; 20 by default")
       ->check(CLI::PositiveNumber);
-  command->add_flag("--every-update", arguments->every_update,
-                    "Take the NEES after every update, and not at the scoring times alone: replays the run");
+  command
+      ->add_option("--reference", arguments->reference,
+                   "batch: a row with the least-squares optimum of all that was measured")
+      ->check(CLI::IsMember({"batch"}));
+  CLI::Option* every_update =
+      command->add_flag("--every-update", arguments->every_update,
+                        "Take NEES and NIS at every update, and not at the scoring times alone");
+  command
+      ->add_flag("--no-replay", arguments->no_replay,
+                 "Leave out what only a replay can tell: NIS, and NEES of landmarks as seen from the robot")
+      ->excludes(every_update);
   command->add_flag("--json", arguments->json, "Print it as JSON");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] { return score(*arguments, registry); });

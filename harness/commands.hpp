@@ -26,6 +26,7 @@ void add_replay(CommandLine line);
 void add_score(CommandLine line);
 void add_export(CommandLine line);
 void add_film(CommandLine line);
+void add_report(CommandLine line);
 void add_compare(CommandLine line);
 void add_paper(CommandLine line);
 void add_stress(CommandLine line);

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   harness::add_score(line);
   harness::add_export(line);
   harness::add_film(line);
+  harness::add_report(line);
   harness::add_compare(line);
   harness::add_paper(line);
   harness::add_stress(line);

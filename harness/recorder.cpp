@@ -7,18 +7,6 @@ namespace harness {
 
 namespace {
 
-constexpr std::string_view no_header;  // TUM files have none
-
-/// The TUM format: t x y z and the quaternion x y z w.
-void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot) {
-  file.value(t).value(T_world_robot.x).value(T_world_robot.y).value(0.0);
-  file.value(0.0)
-      .value(0.0)
-      .value(std::sin(0.5 * T_world_robot.theta))
-      .value(std::cos(0.5 * T_world_robot.theta));
-  file.end_row();
-}
-
 /// The upper triangle, row by row.
 template <class Matrix>
 void write_covariance(CsvWriter& file, const Matrix& covariance) {
@@ -41,6 +29,15 @@ void write_landmarks(const std::filesystem::path& path, std::span<const TrueLand
 }
 
 }  // namespace
+
+void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot) {
+  file.value(t).value(T_world_robot.x).value(T_world_robot.y).value(0.0);
+  file.value(0.0)
+      .value(0.0)
+      .value(std::sin(0.5 * T_world_robot.theta))
+      .value(std::cos(0.5 * T_world_robot.theta));
+  file.end_row();
+}
 
 Recorder::Recorder(std::filesystem::path folder, const LogDescription& log,
                    std::span<const std::string> estimators)

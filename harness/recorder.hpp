@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/csv_writer.hpp"
@@ -15,6 +16,11 @@
 #include "harness/stream.hpp"
 
 namespace harness {
+
+inline constexpr std::string_view no_header;  // TUM files have none
+
+/// A row of a TUM file: t x y z and the quaternion x y z w.
+void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot);
 
 /// All files of one run. Every function throws std::system_error if something cannot be written.
 class Recorder final : public RunListener {

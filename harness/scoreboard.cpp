@@ -57,20 +57,27 @@ TextRow cost_row(const EstimatorScore& score) {
 
 }  // namespace
 
-std::string scoreboard(const Summary& summary) {
+std::vector<TextRow> accuracy_table(const Summary& summary) {
   std::vector<TextRow> accuracy = {{"estimator", "landmarks", "map RMSE [m]", "aligned [m]", "ATE [m]",
                                     "RPE [m]", "RPE [deg]", "NEES pose", "NEES map"}};
+  for (const EstimatorScore& score : summary.score.estimators) accuracy.push_back(accuracy_row(score));
+  accuracy.push_back(accuracy_row(summary.score.odometry));
+  return accuracy;
+}
+
+std::vector<TextRow> cost_table(const Summary& summary) {
   std::vector<TextRow> cost = {{"update", "p50 [us]", "p95 [us]", "p99 [us]", "max [us]", "blocks p50",
                                 "blocks max", "links", "active", "memory [KiB]"}};
-  for (const EstimatorScore& score : summary.score.estimators) {
-    accuracy.push_back(accuracy_row(score));
-    cost.push_back(cost_row(score));
-  }
-  accuracy.push_back(accuracy_row(summary.score.odometry));
+  for (const EstimatorScore& score : summary.score.estimators) cost.push_back(cost_row(score));
+  return cost;
+}
+
+std::string scoreboard(const Summary& summary) {
+  const std::vector<TextRow> cost = cost_table(summary);
   std::string text = fmt::format("{}, seed {}: {:.1f} s, {} updates, {:.1f} times real time{}\n\n",
                                  summary.world, summary.seed, summary.duration, summary.updates,
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
-  text += text_table(accuracy);
+  text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())

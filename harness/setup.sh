@@ -27,13 +27,15 @@ packages=(
   "fonts-roboto-unhinted the letters themselves"
   "libpng-dev            writes and reads images"
   "ffmpeg                encodes films"
-  "gnuplot-nox           draws times against the number of landmarks"
+  "gnuplot-nox           draws figures for papers"
+  "libjs-chart.js        plots in reports"
 )
 
 # What ./test installs besides: the program works with these, and without.
 test_packages=(
   "munge                 lets the parts of Slurm trust each other"
   "slurm-wlm             runs sweeps on a cluster"
+  "chromium-headless-shell opens reports as people see them"
 )
 
 say() { printf 'set-up: %s\n' "$*" >&2; }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "seif/couplings.hpp"
+#include "seif/marginals.hpp"
 #include "seif/models.hpp"
 
 namespace seif {
@@ -109,16 +110,34 @@ std::vector<LandmarkEstimate> Eif::map() const {
   return map;
 }
 
-std::optional<MarginalCovariances> Eif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
+std::optional<Eigen::MatrixXd> Eif::Sigma() const {
   const Eigen::LLT<Eigen::MatrixXd> llt(Omega_);
   if (llt.info() != Eigen::Success) return std::nullopt;
-  const Eigen::MatrixXd Sigma = llt.solve(Eigen::MatrixXd::Identity(Omega_.rows(), Omega_.cols()));
-  MarginalCovariances marginals{.pose = Sigma.topLeftCorner<3, 3>(), .landmarks = {}};
+  return llt.solve(Eigen::MatrixXd::Identity(Omega_.rows(), Omega_.cols()));
+}
+
+std::optional<MarginalCovariances> Eif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
+  const std::optional<Eigen::MatrixXd> Sigma = this->Sigma();
+  if (!Sigma) return std::nullopt;
+  MarginalCovariances marginals{.pose = Sigma->topLeftCorner<3, 3>(), .landmarks = {}};
   for (const LandmarkId landmark : landmarks) {
     const int row = row_of(index_.find(landmark).value());
-    marginals.landmarks.emplace_back(Sigma.block<2, 2>(row, row));
+    marginals.landmarks.emplace_back(Sigma->block<2, 2>(row, row));
   }
   return marginals;
+}
+
+std::optional<std::vector<JointCovariance>> Eif::joint_covariances(
+    std::span<const LandmarkId> landmarks) const {
+  const std::optional<Eigen::MatrixXd> Sigma = this->Sigma();
+  if (!Sigma) return std::nullopt;
+  std::vector<JointCovariance> joint;
+  for (const LandmarkId landmark : landmarks) {
+    const int row = row_of(index_.find(landmark).value());
+    joint.push_back(joint_covariance(Sigma->topLeftCorner<3, 3>(), Sigma->block<3, 2>(0, row),
+                                     Sigma->block<2, 2>(row, row)));
+  }
+  return joint;
 }
 
 }  // namespace seif

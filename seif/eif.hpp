@@ -28,6 +28,8 @@ class Eif final : public Estimator {
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
+  std::optional<std::vector<JointCovariance>> joint_covariances(
+      std::span<const LandmarkId> landmarks) const override;
 
   /// The whole belief, for oracles: (3+2N x 3+2N) and (3+2N x 1), landmarks in the order in which they
   /// joined.
@@ -35,6 +37,7 @@ class Eif final : public Estimator {
   const Eigen::VectorXd& mu() const { return mu_; }
 
  private:
+  std::optional<Eigen::MatrixXd> Sigma() const;  // nothing: Omega is not positive definite
   static int row_of(int slot) { return 3 + 2 * slot; }
   int row_of_landmark(const Observation& observation);
 

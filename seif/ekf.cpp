@@ -184,6 +184,21 @@ std::optional<MarginalCovariances> Ekf::marginal_covariances(std::span<const Lan
   return marginals;
 }
 
+std::optional<std::vector<JointCovariance>> Ekf::joint_covariances(
+    std::span<const LandmarkId> landmarks) const {
+  std::vector<JointCovariance> joint;
+  joint.reserve(landmarks.size());
+  for (const LandmarkId landmark : landmarks) {
+    const int row = row_of(index_.find(landmark).value());
+    JointCovariance lower = JointCovariance::Zero();
+    lower.topLeftCorner<3, 3>() = Sigma_.topLeftCorner<3, 3>();
+    lower.bottomLeftCorner<2, 3>() = Sigma_.block<2, 3>(row, 0);
+    lower.bottomRightCorner<2, 2>() = Sigma_.block<2, 2>(row, row);
+    joint.emplace_back(lower.selfadjointView<Eigen::Lower>());
+  }
+  return joint;
+}
+
 Eigen::MatrixXd Ekf::Sigma() const {
   return Sigma_.topLeftCorner(size(), size()).selfadjointView<Eigen::Lower>();
 }

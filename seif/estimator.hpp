@@ -60,6 +60,9 @@ struct MarginalCovariances {
   std::vector<Eigen::Matrix2d> landmarks;          // (2 x 2) each [m^2]
 };
 
+/// The covariance of the pose together with one landmark. (5 x 5) of [x y theta m_x m_y] [m, rad]
+using JointCovariance = Eigen::Matrix<double, 5, 5>;
+
 /// What a filter keeps of how things go together.
 enum class BeliefMatrix { none, information, covariance };
 
@@ -126,6 +129,13 @@ class Estimator {
   /// Each of `landmarks` must be in the map.
   virtual std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const = 0;
+
+  /// The same of the pose together with each of `landmarks`, in that order. By default the filter does not
+  /// tell.
+  virtual std::optional<std::vector<JointCovariance>> joint_covariances(
+      std::span<const LandmarkId> /*landmarks*/) const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace seif

@@ -118,6 +118,21 @@ double DiagonalBlocksOfInverse::operator()(int i, int j) const {
   return Z_.valuePtr()[found - rows];
 }
 
+std::optional<Eigen::Matrix<double, Eigen::Dynamic, 3>> columns_of_inverse(const Sparse& A, int first) {
+  const Factor factor(A);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> E = Eigen::MatrixXd::Zero(A.rows(), 3);
+  E.middleRows<3>(first).setIdentity();
+  return factor.solve(E);
+}
+
+JointCovariance joint_covariance(const Eigen::Matrix3d& pose, const Eigen::Matrix<double, 3, 2>& cross,
+                                 const Eigen::Matrix2d& landmark) {
+  JointCovariance joint;
+  joint << pose, cross, cross.transpose(), landmark;
+  return joint;
+}
+
 std::vector<LandmarkEstimate> map_of(const InformationState& state) {
   std::vector<LandmarkEstimate> map;
   map.reserve(static_cast<std::size_t>(state.landmark_count()));
@@ -149,6 +164,21 @@ std::optional<MarginalCovariances> marginals_of(const InformationState& state,
   for (const LandmarkId landmark : landmarks)
     marginals.landmarks.push_back(Sigma->block<2>(InformationState::row_of(state.find(landmark).value())));
   return marginals;
+}
+
+std::optional<std::vector<JointCovariance>> joint_covariances_of(const InformationState& state,
+                                                                 std::span<const LandmarkId> landmarks) {
+  const std::optional<MarginalCovariances> marginals = marginals_of(state, landmarks);
+  const auto columns = columns_of_inverse(state.full_Omega(), 0);  // of the pose
+  if (!marginals || !columns) return std::nullopt;
+  std::vector<JointCovariance> joint;
+  joint.reserve(landmarks.size());
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const int row = InformationState::row_of(state.find(landmarks[i]).value());
+    joint.push_back(
+        joint_covariance(marginals->pose, columns->middleRows<2>(row).transpose(), marginals->landmarks[i]));
+  }
+  return joint;
 }
 
 }  // namespace seif

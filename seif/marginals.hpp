@@ -36,6 +36,15 @@ class DiagonalBlocksOfInverse {
   Eigen::VectorXi permuted_;       // where row i of A went
 };
 
+/// The three columns of A^-1 from `first` on. (n x 3) `A` is symmetric, its lower triangle given. Nothing if
+/// it is not positive definite.
+std::optional<Eigen::Matrix<double, Eigen::Dynamic, 3>> columns_of_inverse(
+    const Eigen::SparseMatrix<double>& A, int first);
+
+/// By its blocks.
+JointCovariance joint_covariance(const Eigen::Matrix3d& pose, const Eigen::Matrix<double, 3, 2>& cross,
+                                 const Eigen::Matrix2d& landmark);
+
 /// All means, in the order of the slots.
 std::vector<LandmarkEstimate> map_of(const InformationState& state);
 
@@ -49,5 +58,9 @@ void landmarks_of(const InformationState& state, std::span<const LandmarkId> lan
 /// As Estimator::marginal_covariances. For a few landmarks little more than the factorisation.
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks);
+
+/// As Estimator::joint_covariances, for little more than marginals_of().
+std::optional<std::vector<JointCovariance>> joint_covariances_of(const InformationState& state,
+                                                                 std::span<const LandmarkId> landmarks);
 
 }  // namespace seif

@@ -70,4 +70,9 @@ std::optional<MarginalCovariances> ReportSeif::marginal_covariances(
   return marginals_of(state_, landmarks);
 }
 
+std::optional<std::vector<JointCovariance>> ReportSeif::joint_covariances(
+    std::span<const LandmarkId> landmarks) const {
+  return joint_covariances_of(state_, landmarks);
+}
+
 }  // namespace seif

@@ -39,6 +39,10 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
 
 /// Strengths differ by orders of magnitude, and it matters which are zero: a block that is not is never
 /// white.
+float MatrixPicture::darkness(float strength) {
+  return strength > 0.0F ? 0.12F + 0.88F * std::sqrt(std::sqrt(strength)) : 0.0F;
+}
+
 render::Raster MatrixPicture::raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const {
   render::Raster raster;
   raster.min = min;
@@ -47,7 +51,7 @@ render::Raster MatrixPicture::raster(const Eigen::Vector2f& min, const Eigen::Ve
   raster.rows = size_;
   raster.rgba.reserve(4 * cells_.size());
   for (const float strength : cells_) {
-    const float dark = strength > 0.0F ? 0.12F + 0.88F * std::sqrt(std::sqrt(strength)) : 0.0F;
+    const float dark = darkness(strength);
     for (const float full : {0.06F, 0.10F, 0.16F})
       raster.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0F * (1.0F - dark * (1.0F - full)))));
     raster.rgba.push_back(255);

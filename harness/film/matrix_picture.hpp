@@ -24,6 +24,11 @@ class MatrixPicture {
   seif::BeliefMatrix matrix() const { return matrix_; }
   bool empty() const { return cells_.empty(); }
 
+  int size() const { return size_; }                          // [-] cells along an edge
+  const std::vector<float>& cells() const { return cells_; }  // (size x size) strengths [-]
+  /// How dark a cell of this strength is. [-] in [0, 1]
+  static float darkness(float strength);
+
   render::Raster raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const;
 
  private:

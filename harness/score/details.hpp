@@ -12,7 +12,9 @@
 #include "harness/score.hpp"
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
+#include "harness/score/rebuilt.hpp"
 #include "harness/summary.hpp"
+#include "harness/text_table.hpp"
 
 namespace harness {
 
@@ -32,6 +34,7 @@ struct EstimatorDetails {
   std::size_t poses_scored = 0;                    // [-] moments with a NEES of the pose
   std::optional<double> pose_inside;               // [-] the share of them inside the chi-square band
   std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
+  RebuiltScore rebuilt;                            // by a replay, where there was one
   std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] of the position
 };
 
@@ -49,7 +52,10 @@ RunDetails score_details(const std::filesystem::path& folder, std::span<const st
 /// The summary, with the details in each estimator.
 std::string to_json(const Summary& summary, const RunDetails& details);
 
-/// As tables for people.
+/// Of the map, of what was rebuilt, of the path and, if a loop closes, of the error after that.
+std::vector<std::vector<TextRow>> details_tables(const RunDetails& details);
+
+/// The same as text.
 std::string details_board(const RunDetails& details);
 
 }  // namespace harness

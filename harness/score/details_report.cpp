@@ -28,6 +28,15 @@ void add_trajectory(const RunDetails& run, const EstimatorDetails& details, Json
     json["loop_closure_error_m"][fmt::format("{}", response_updates[i])] = number(details.closure_error[i]);
 }
 
+void add_rebuilt(const RebuiltScore& rebuilt, Json& json) {
+  json["nees_landmark_from_robot"] = number(rebuilt.nees_landmark_from_robot);
+  json["nees_landmark_from_robot_final"] = number(rebuilt.nees_landmark_from_robot_final);
+  json["nees_landmark_from_robot_inside"] = number(rebuilt.landmarks_from_robot_inside);
+  json["nis"] = number(rebuilt.nis);
+  json["nis_inside"] = number(rebuilt.nis_inside);
+  json["nis_inside_of"] = rebuilt.observations;
+}
+
 void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json& json) {
   const std::optional<MapCounts>& map = details.map;
   json["landmarks_missed"] = map ? Json(map->missed) : Json(nullptr);
@@ -36,6 +45,7 @@ void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json&
   json["nees_pose_inside"] = number(details.pose_inside);
   json["nees_pose_inside_of"] = details.poses_scored;
   json["nees_landmark_inside"] = number(details.landmarks_inside);
+  add_rebuilt(details.rebuilt, json);
   add_trajectory(run, details, json);
 }
 
@@ -57,6 +67,17 @@ TextRow map_row(const EstimatorDetails& details) {
           percent_cell(details.pose_inside),
           fmt::format("{}", details.poses_scored),
           percent_cell(details.landmarks_inside)};
+}
+
+TextRow rebuilt_row(const EstimatorDetails& details) {
+  const RebuiltScore& rebuilt = details.rebuilt;
+  return {details.name,
+          number_cell(rebuilt.nees_landmark_from_robot, 2),
+          number_cell(rebuilt.nees_landmark_from_robot_final, 2),
+          percent_cell(rebuilt.landmarks_from_robot_inside),
+          number_cell(rebuilt.nis, 2),
+          percent_cell(rebuilt.nis_inside),
+          fmt::format("{}", rebuilt.observations)};
 }
 
 TextRow path_row(const EstimatorDetails& details) {
@@ -89,9 +110,11 @@ std::string to_json(const Summary& summary, const RunDetails& details) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string details_board(const RunDetails& details) {
+std::vector<std::vector<TextRow>> details_tables(const RunDetails& details) {
   std::vector<TextRow> map = {{"map", "missed", "spurious", "duplicate", "from robot [m]", "pose inside [%]",
                                "of", "map inside [%]"}};
+  std::vector<TextRow> rebuilt = {
+      {"from robot", "NEES map", "at the end", "inside [%]", "NIS", "inside [%]", "of"}};
   std::vector<TextRow> path = {{"RPE along path"}};
   for (const double distance : details.choices.distances) {
     path.front().push_back(fmt::format("{} m [m]", distance));
@@ -106,13 +129,21 @@ std::string details_board(const RunDetails& details) {
   };
   for (const EstimatorDetails& estimator : details.estimators) {
     map.push_back(map_row(estimator));
+    rebuilt.push_back(rebuilt_row(estimator));
     add_moving(estimator);
   }
   add_moving(details.odometry);
-  std::string text = text_table(map) + '\n' + text_table(path);
+  std::vector<std::vector<TextRow>> tables = {map, rebuilt, path};
+  if (details.closures > 0) tables.push_back(closure);
+  return tables;
+}
+
+std::string details_board(const RunDetails& details) {
+  const std::vector<std::vector<TextRow>> tables = details_tables(details);
+  std::string text = text_table(tables[0]) + '\n' + text_table(tables[1]) + '\n' + text_table(tables[2]);
   if (details.closures == 0) return text + "\nNo loop closes.\n";
   return text +
-         fmt::format("\nError of the position [m], {} closures\n{}", details.closures, text_table(closure));
+         fmt::format("\nError of the position [m], {} closures\n{}", details.closures, text_table(tables[3]));
 }
 
 }  // namespace harness

@@ -11,6 +11,7 @@
 #include "harness/statistics.hpp"
 #include "harness/sweep/plan.hpp"
 #include "harness/sweep/rows.hpp"
+#include "harness/text_table.hpp"
 
 namespace harness {
 
@@ -59,7 +60,10 @@ std::string to_json(const Aggregate& aggregate);
 /// A row for each setting, estimator and score.
 std::string to_csv(const Aggregate& aggregate);
 
-/// The most telling scores as a table for people; what failed stands below.
+/// The most telling scores.
+std::vector<TextRow> aggregate_table(const Aggregate& aggregate);
+
+/// The same as text; what failed stands below.
 std::string aggregate_board(const Aggregate& aggregate);
 
 }  // namespace harness

@@ -118,7 +118,7 @@ std::string to_csv(const Aggregate& aggregate) {
   return text;
 }
 
-std::string aggregate_board(const Aggregate& aggregate) {
+std::vector<TextRow> aggregate_table(const Aggregate& aggregate) {
   const SweepPlan& plan = aggregate.plan;
   TextRow header;
   for (const SweepAxis& axis : plan.axes) header.push_back(axis.path);
@@ -130,9 +130,14 @@ std::string aggregate_board(const Aggregate& aggregate) {
     for (const EstimatorStatistics& estimator : setting.estimators)
       rows.push_back(board_row(setting, estimator));
   }
+  return rows;
+}
+
+std::string aggregate_board(const Aggregate& aggregate) {
+  const SweepPlan& plan = aggregate.plan;
   std::string text = fmt::format("{}, seeds {}, {} settings, {} runs, {} of them failed\n\n{}", plan.name,
                                  seeds_text(plan.seeds), setting_count(plan), cell_count(plan),
-                                 aggregate.failed.size(), text_table(rows));
+                                 aggregate.failed.size(), text_table(aggregate_table(aggregate)));
   return aggregate.failed.empty() ? text : text + '\n' + failed_lines(plan, aggregate.failed);
 }
 

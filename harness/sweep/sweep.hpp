@@ -48,6 +48,9 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
 bool run_cells(const SweepFolder& sweep, const Shard& shard, int jobs, bool quiet,
                const seif::Registry& registry);
 
+/// Of a sweep none of whose cells is open any more.
+Aggregate read_aggregate(const SweepFolder& sweep);
+
 /// Writes runs.csv, times.csv, aggregate.csv and aggregate.json once no cell is open any more.
 Aggregate write_tables(const SweepFolder& sweep);
 

@@ -90,6 +90,8 @@ Gathered gather(const SweepFolder& sweep, const std::vector<CellState>& states) 
 
 }  // namespace
 
+Aggregate read_aggregate(const SweepFolder& sweep) { return gather(sweep, sweep.states()).aggregate; }
+
 Aggregate write_tables(const SweepFolder& sweep) {
   const std::vector<CellState> states = sweep.states();
   Gathered gathered = gather(sweep, states);

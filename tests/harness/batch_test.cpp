@@ -123,6 +123,23 @@ class DenseOracle {
     const Eigen::MatrixXd G = jacobian([this](const VectorXd& x) -> VectorXd { return last_pose(x); }, x_);
     return G * Sigma_ * G.transpose();
   }
+  seif::JointCovariance joint_covariance(int m) const {
+    const auto pose_and_landmark = [&](const VectorXd& x) -> VectorXd {
+      VectorXd both(5);
+      both << last_pose(x), x.segment<2>(size_ - 16 + 2 * m);
+      return both;
+    };
+    const Eigen::MatrixXd G = jacobian(pose_and_landmark, x_);
+    return G * Sigma_ * G.transpose();
+  }
+  /// After each motion.
+  std::vector<Vector3d> trajectory() const {
+    std::vector<Vector3d> poses;
+    Vector3d pose = x_.head<3>();
+    for (int i = 0; i < static_cast<int>(recording_.motions.size()); ++i)
+      poses.push_back(pose = moved(pose, i, x_.segment<3>(3 + 3 * i)));
+    return poses;
+  }
   Vector2d landmark(int m) const { return x_.segment<2>(size_ - 16 + 2 * m); }
   Matrix2d landmark_covariance(int m) const {
     return Sigma_.block<2, 2>(size_ - 16 + 2 * m, size_ - 16 + 2 * m);
@@ -216,6 +233,36 @@ TEST_P(BatchDrives, IsTheOptimumThatADenseSolverFinds) {
   const Vector3d pose = oracle.pose();
   EXPECT_LT(pose_error(batch->pose(), {pose.x(), pose.y(), pose.z()}).norm(), 1e-6);
   EXPECT_TRUE(marginals->pose.isApprox(oracle.pose_covariance(), 1e-5));
+}
+
+TEST_P(BatchDrives, KnowsThePoseTogetherWithEachLandmark) {
+  const auto [drive, guide] = GetParam();
+  const Recording recording = record(drive, 14, 1.0, 1);
+  const auto batch = make("batch", recording.start, guide);
+  feed(recording, *batch);
+  EXPECT_FALSE(batch->joint_covariances(std::vector<seif::LandmarkId>{})) << "it was not solved for";
+  const std::vector<seif::LandmarkId> ids = ids_of(*batch);
+  const auto joint = batch->joint_covariances(ids);
+  ASSERT_TRUE(joint);
+  const DenseOracle oracle(recording);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const seif::JointCovariance expected = oracle.joint_covariance(ids[i]);
+    EXPECT_TRUE((*joint)[i].isApprox(expected, 1e-5)) << (*joint)[i] << '\n' << expected;
+  }
+}
+
+TEST_P(BatchDrives, TellsOfItsPosesAtAllScans) {
+  const auto [drive, guide] = GetParam();
+  const Recording recording = record(drive, 14, 1.0, 1);
+  const auto batch = make("batch", recording.start, guide);
+  feed(recording, *batch);
+  const std::vector<Pose2> poses = dynamic_cast<const Batch&>(*batch).trajectory();
+  const std::vector<Vector3d> expected = DenseOracle(recording).trajectory();
+  ASSERT_EQ(poses.size(), expected.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Vector3d& pose = expected[i];
+    EXPECT_LT(pose_error(poses[i], {pose.x(), pose.y(), pose.z()}).norm(), 1e-6) << "scan " << i;
+  }
 }
 
 TEST(Batch, IsTheInformationFiltersEstimateWhereAllIsNearlyLinear) {

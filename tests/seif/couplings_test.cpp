@@ -11,16 +11,13 @@
 #include "dense_oracle.hpp"
 #include "driven_state.hpp"
 #include "every_filter.hpp"
+#include "matrix_of.hpp"
 #include "ring_drive.hpp"
-#include "seif/eif.hpp"
-#include "seif/ekf.hpp"
-#include "seif/eseif.hpp"
-#include "seif/report_seif.hpp"
-#include "seif/seif.hpp"
 
 namespace seif {
 namespace {
 
+using test::matrix_of;
 using test::RingDrive;
 
 using Row = std::map<LandmarkId, double>;  // strengths, by what the coupling leads to
@@ -66,20 +63,6 @@ std::vector<LandmarkId> ids_of(const std::vector<LandmarkEstimate>& map) {
   std::vector<LandmarkId> ids;
   for (const LandmarkEstimate& landmark : map) ids.push_back(landmark.landmark);
   return ids;
-}
-
-/// The whole matrix that a filter's couplings tell of.
-Eigen::MatrixXd matrix_of(const Estimator& filter) {
-  if (const auto* seif = dynamic_cast<const Seif*>(&filter))
-    return oracle::symmetric(seif->state().full_Omega());
-  if (const auto* report = dynamic_cast<const ReportSeif*>(&filter)) {
-    return oracle::symmetric(report->state().full_Omega());
-  }
-  if (const auto* eseif = dynamic_cast<const Eseif*>(&filter)) {
-    return oracle::symmetric(eseif->state().full_Omega());
-  }
-  if (const auto* eif = dynamic_cast<const Eif*>(&filter)) return eif->Omega();
-  return dynamic_cast<const Ekf&>(filter).Sigma();
 }
 
 TEST(Couplings, AreTheRowsOfAStateWithLinksOfEveryKind) {

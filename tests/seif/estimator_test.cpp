@@ -68,6 +68,8 @@ TEST(Estimator, TellsOfNoMatrixUnlessItHasOne) {
   EXPECT_EQ(filter.whole_belief_matrix().size(), 0);
 }
 
+TEST(Estimator, TellsOfNoJointCovariancesUnlessItHasSome) { EXPECT_FALSE(MapAlone().joint_covariances({})); }
+
 class LandmarksOf : public testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(All, LandmarksOf, testing::ValuesIn(test::every_filter()), test::name_of);

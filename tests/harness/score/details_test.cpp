@@ -131,14 +131,62 @@ TEST_F(ScoreCommand, ARunThatDoesNotReplayToTheSameIsAnError) {
   EXPECT_NE(called.errors.find("does not replay to the same"), std::string::npos) << called.errors;
 }
 
+TEST_F(ScoreCommand, GoesWithoutAReplayThatDoesNotComeToTheSame) {
+  std::string summary = read_file(folder / "run" / "summary.json");
+  summary.replace(summary.find("trajectory_hash") + 19, 4, "0000");
+  test::write_file(folder / "run" / "summary.json", summary);
+  const test::Called called = test::call(folder, "score run --json");
+  EXPECT_EQ(called.exit_code, 0);
+  EXPECT_NE(called.errors.find("does not replay to the same"), std::string::npos) << called.errors;
+  EXPECT_TRUE(nlohmann::json::parse(called.output)["estimators"]["ekf"]["nis"].is_null());
+}
+
+TEST_F(ScoreCommand, RebuildsByAReplayWhatTheFolderDoesNotHold) {
+  const nlohmann::json ekf = score("")["estimators"]["ekf"];
+  for (const char* key : {"nis", "nis_inside", "nees_landmark_from_robot", "nees_landmark_from_robot_final",
+                          "nees_landmark_from_robot_inside"})
+    EXPECT_TRUE(ekf[key].is_number()) << key;
+  const nlohmann::json at_every_update = score("--every-update")["estimators"]["ekf"];
+  EXPECT_GT(at_every_update["nis_inside_of"], 10 * ekf["nis_inside_of"].get<int>());
+  EXPECT_EQ(at_every_update["nees_landmark_from_robot_final"], ekf["nees_landmark_from_robot_final"]);
+  const nlohmann::json without = score("--no-replay")["estimators"]["ekf"];
+  EXPECT_TRUE(without["nis"].is_null());
+  EXPECT_EQ(without["nis_inside_of"], 0);
+  EXPECT_EQ(without["nees_pose"], ekf["nees_pose"]);
+}
+
+TEST_F(ScoreCommand, TheReferenceIsTheOptimumThatARunWithItHas) {
+  const nlohmann::json json = score("--reference batch");
+  const nlohmann::json& reference = json["estimators"]["batch"];
+  EXPECT_EQ(json["estimators"].size(), 3U);
+  test::call(folder, "replay run --estimators batch --out with_it --quiet");
+  const nlohmann::json with_it =
+      nlohmann::json::parse(read_file(folder / "with_it" / "summary.json"))["estimators"]["batch"];
+  for (const char* key : {"landmarks_mapped", "landmark_rmse_m", "landmark_rmse_aligned_m", "nees_pose_final",
+                          "nees_landmark_final"})
+    EXPECT_EQ(reference[key], with_it[key]) << key;
+  EXPECT_TRUE(reference["nees_landmark_from_robot_final"].is_number());
+  EXPECT_TRUE(reference["update_us"]["p50"].is_null()) << "the times of its guide are not its own";
+  EXPECT_NE(reference["ate_rmse_m"], with_it["ate_rmse_m"]) << "the trajectory is the optimum's";
+  EXPECT_LT(reference["rpe_trans_m"], with_it["rpe_trans_m"]) << "which looks ahead";
+}
+
+TEST_F(ScoreCommand, TheReferenceNeedsItsName) {
+  test::call(folder, "replay run --estimators batch --out with_it --quiet");
+  const test::Called called = test::call(folder, "score with_it --reference batch");
+  EXPECT_EQ(called.exit_code, 2);
+  EXPECT_NE(called.errors.find("has an estimator of this name"), std::string::npos) << called.errors;
+}
+
 TEST_F(ScoreCommand, PrintsTables) {
   const std::string board = test::call(folder, "score run --rpe-m 2").output;
-  for (const char* part : {"missed", "RPE along path  2 m [m]", "pose inside [%]", "odometry"})
+  for (const char* part : {"missed", "RPE along path  2 m [m]", "NIS", "pose inside [%]", "odometry"})
     EXPECT_NE(board.find(part), std::string::npos) << board;
 }
 
 TEST_F(ScoreCommand, BadInputEndsWithCodeTwo) {
-  for (const char* arguments : {"score nothing", "score run --rpe-m 0", "score run --away-s -1", "score"})
+  for (const char* arguments : {"score nothing", "score run --rpe-m 0", "score run --away-s -1", "score",
+                                "score run --reference best", "score run --every-update --no-replay"})
     EXPECT_EQ(test::call(folder, arguments).exit_code, 2) << arguments;
 }
 

@@ -8,6 +8,7 @@
 #include "harness/score/chi_square.hpp"
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
+#include "harness/score/rebuilt.hpp"
 
 namespace harness {
 namespace {
@@ -66,6 +67,48 @@ TEST(RmseFromRobot, LeavesOutWhatRobotAndMapShare) {
   EXPECT_NEAR(*rmse_from_robot(points, {0, T * true_pose * seif::Pose2{0.3, 0, 0}, true_pose}), 0.3,
               rounding);
   EXPECT_FALSE(rmse_from_robot({}, {}));
+}
+
+/// A robot that turns by 0.2 rad at one sigma, and a landmark two metres ahead of it.
+Eigen::Matrix<double, 5, 5> independent() {
+  return Eigen::Matrix<double, 5, 1>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
+}
+
+TEST(NeesFromRobot, MatchesTheHandComputedCase) {
+  // Seen from the robot, x has variance 0.01 + 0.01, y 0.01 + 0.01 + 2^2 * 0.04.
+  const PosePair pose{0, {}, {}};
+  EXPECT_NEAR(*nees_from_robot(pose, {{2, 0}, {2, 0.3}}, independent()), 0.09 / 0.18 / 2, rounding);
+  EXPECT_NEAR(*nees_from_robot(pose, {{2, 0}, {2.1, 0}}, independent()), 0.01 / 0.02 / 2, rounding);
+}
+
+TEST(NeesFromRobot, TheHeadingAloneMovesWhatIsSeen) {
+  // Believed to look to the north, the robot has the landmark three metres to its right: by a turn of d it
+  // moves by 3 d along the robot's x.
+  const PosePair pose{0, {1, 1, pi / 2}, {1, 1, pi / 2 + 0.1}};
+  Eigen::Matrix<double, 5, 5> joint = independent();
+  joint.diagonal() << 0, 0, 0.04, 1e-9, 1e-9;
+  const double along = 3 * std::sin(0.1);
+  EXPECT_NEAR(*nees_from_robot({0, pose.est_pose, {1, 1, pi / 2}}, {{4, 1}, {4, 1}}, joint), 0.0, rounding);
+  joint.diagonal() << 0, 0, 0.04, 0.5, 0.5;
+  const double across = 3 * (1 - std::cos(0.1));
+  const double expected = along * along / (0.5 + 9 * 0.04) + across * across / 0.5;
+  EXPECT_NEAR(*nees_from_robot(pose, {{4, 1}, {4, 1}}, joint), expected / 2, rounding);
+}
+
+TEST(NeesFromRobot, LeavesOutWhatRobotAndMapShare) {
+  // Robot and landmark move together by metres, and against each other by 0.1 m.
+  Eigen::Matrix<double, 5, 5> joint = Eigen::Matrix<double, 5, 5>::Zero();
+  for (const int axis : {0, 1}) {
+    joint(axis, axis) = 4;
+    joint(axis, 3 + axis) = joint(3 + axis, axis) = 4;
+    joint(3 + axis, 3 + axis) = 4.01;
+  }
+  const PosePair pose{0, {7, -2, 0}, {4, 2, 0}};
+  EXPECT_NEAR(*nees_from_robot(pose, {{9, -2}, {6, 2.1}}, joint), 0.01 / 0.01 / 2, 1e-9);
+}
+
+TEST(NeesFromRobot, IsNothingWithoutAProperBelief) {
+  EXPECT_FALSE(nees_from_robot({0, {}, {}}, {{2, 0}, {2, 0}}, -independent()));
 }
 
 TEST(ChiSquareBand, HasTheValuesOfTheTables) {

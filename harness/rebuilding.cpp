@@ -1,0 +1,142 @@
+#include "harness/rebuilding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "harness/csv_reader.hpp"
+#include "harness/prepared_run.hpp"
+#include "harness/replay_settings.hpp"
+#include "harness/score/chi_square.hpp"
+#include "seif/models.hpp"
+
+namespace harness {
+
+namespace {
+
+std::optional<double> mean(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The covariance S of an innovation, J P J' + Q.
+Eigen::Matrix2d innovation_covariance(const seif::PredictedObservation& predicted,
+                                      const seif::JointCovariance& P, const Eigen::Matrix2d& Q) {
+  Eigen::Matrix<double, 2, 5> J;
+  J << predicted.J_wrt_pose, predicted.J_wrt_landmark;
+  return J * P * J.transpose() + Q;
+}
+
+}  // namespace
+
+RebuiltConsistency::RebuiltConsistency(const Believers& believers, const LogDescription& log, int sample)
+    : believers_(believers),
+      log_(log),
+      sample_(static_cast<std::size_t>(sample)),
+      gathered_(believers.estimators.size()) {}
+
+void RebuiltConsistency::note_truth(const std::optional<TruePose>& truth) {
+  true_pose_.reset();
+  if (truth) true_pose_ = truth->T_world_robot;
+}
+
+void RebuiltConsistency::scan(const ScanEvent& event) {
+  note_truth(event.truth);
+  if (!std::exchange(scan_is_due_, false)) return;
+  for (std::size_t i = 0; i < gathered_.size(); ++i) {
+    const LiveEstimator& estimator = believers_.estimators[i];
+    if (estimator.failure.empty()) add_innovations(estimator, event.scan, gathered_[i]);
+  }
+}
+
+void RebuiltConsistency::add_innovations(const LiveEstimator& estimator, const seif::Scan& scan,
+                                         Gathered& gathered) const {
+  std::vector<seif::LandmarkId> ids;
+  for (const seif::Observation& observation : scan.observations) ids.push_back(observation.landmark);
+  std::vector<seif::LandmarkEstimate> known;
+  estimator.filter->landmarks(ids, known);
+  ids.clear();
+  for (const seif::LandmarkEstimate& landmark : known) ids.push_back(landmark.landmark);
+  const auto joint = estimator.filter->joint_covariances(ids);
+  if (!joint) return;
+  const double factor = estimator.observation_sd_factor * estimator.observation_sd_factor;
+  std::size_t i = 0;  // of the known ones: they come in the order of the observations
+  for (const seif::Observation& observation : scan.observations) {
+    if (i == known.size() || known[i].landmark != observation.landmark) continue;
+    const seif::PredictedObservation predicted =
+        predict_observation(estimator.filter->pose(), log_.T_robot_sensor, known[i].mean);
+    const Eigen::Matrix2d S = innovation_covariance(predicted, (*joint)[i], factor * observation.covariance);
+    const auto value = nees(Eigen::Vector2d(innovation(observation, predicted.z)), S);
+    if (value) gathered.nis.push_back(*value);
+    ++i;
+  }
+}
+
+std::vector<std::pair<seif::LandmarkId, PointPair>> RebuiltConsistency::sample_of(
+    const LiveEstimator& estimator) const {
+  std::vector<std::pair<seif::LandmarkId, PointPair>> known;
+  for (const seif::LandmarkEstimate& landmark : estimator.filter->map()) {
+    const auto truth =
+        std::ranges::lower_bound(*log_.landmarks, landmark.landmark, {}, &TrueLandmark::landmark);
+    if (truth != log_.landmarks->end() && truth->landmark == landmark.landmark)
+      known.push_back({landmark.landmark, {landmark.mean, truth->position}});
+  }
+  std::vector<std::pair<seif::LandmarkId, PointPair>> sample;
+  for (const std::size_t i : spread_sample(known.size(), sample_)) sample.push_back(known[i]);
+  return sample;
+}
+
+void RebuiltConsistency::consistency(std::size_t index, const ConsistencyRecord& record) {
+  Gathered& gathered = gathered_.at(index);
+  gathered.last.clear();
+  if (!true_pose_ || !log_.landmarks) return;
+  const LiveEstimator& estimator = believers_.estimators[index];
+  const auto sample = sample_of(estimator);
+  std::vector<seif::LandmarkId> ids;
+  for (const auto& [id, pair] : sample) ids.push_back(id);
+  const auto joint = estimator.filter->joint_covariances(ids);
+  if (!joint) return;
+  const PosePair pose{record.t, estimator.filter->pose(), *true_pose_};
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    if (const auto value = nees_from_robot(pose, sample[i].second, (*joint)[i]))
+      gathered.last.push_back(*value);
+  }
+  if (const auto value = mean(gathered.last)) gathered.means.push_back(*value);
+}
+
+std::vector<RebuiltScore> RebuiltConsistency::scores() const {
+  const ConfidenceInterval band = chi_square_band(2);
+  std::vector<RebuiltScore> scores;
+  for (const Gathered& gathered : gathered_) {
+    scores.push_back({.nis = mean(gathered.nis),
+                      .observations = gathered.nis.size(),
+                      .nis_inside = share_inside(gathered.nis, band),
+                      .nees_landmark_from_robot = mean(gathered.means),
+                      .nees_landmark_from_robot_final = mean(gathered.last),
+                      .landmarks_from_robot_inside = share_inside(gathered.last, band)});
+  }
+  return scores;
+}
+
+std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& summary,
+                                  const seif::Registry& registry,
+                                  const std::function<void(const Believers&)>& look) {
+  const worlds::LoadResult settings = load_replay_settings(
+      rebuilding.run, {rebuilding.estimators, {}, fmt::format("{}", summary.seed)}, registry);
+  if (!settings.world) throw BadInput(worlds::to_string(settings.problems.front()));
+  PreparedRun run = prepare_replay(rebuilding.run, *settings.world, registry);
+  run.plan.folder = rebuilding.to;
+  if (rebuilding.interval) run.plan.scoring.interval = *rebuilding.interval;
+  RebuiltConsistency rebuilt(*run.believers, *run.log, run.plan.scoring.landmark_sample);
+  const RunResult result = execute(run, &rebuilt);
+  if (result.summary.interrupted) throw std::runtime_error("interrupted");
+  if (!rebuilding.is_other && result.summary.trajectory_hash != summary.trajectory_hash)
+    throw NotReplayed(fmt::format("{}: does not replay to the same estimates; it was made by version {}",
+                                  rebuilding.run.string(), summary.version));
+  if (look) look(*run.believers);
+  return rebuilt.scores();
+}
+
+}  // namespace harness

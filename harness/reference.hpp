@@ -1,0 +1,23 @@
+// The optimum of a recorded run as a row of its score table.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/score/details.hpp"
+#include "harness/score_folder.hpp"
+#include "harness/summary.hpp"
+#include "seif/registry.hpp"
+
+namespace harness {
+
+struct ReferenceScore {
+  EstimatorScore score;  // under the name of the reference; without costs, which are those of no filter
+  EstimatorDetails details;
+};
+
+/// Replays a run for `batch`, solves once at the end, and scores map, belief and trajectory of the optimum.
+/// Throws BadInput if the run has an estimator of that name, and std::runtime_error if no optimum is found.
+ReferenceScore score_batch(const std::filesystem::path& run, const Summary& summary,
+                           const DetailChoices& choices, const seif::Registry& registry);
+
+}  // namespace harness

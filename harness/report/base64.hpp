@@ -1,0 +1,13 @@
+// Bytes as text, for data in pages.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace harness {
+
+/// RFC 4648, section 4.
+std::string base64(std::span<const std::uint8_t> bytes);
+
+}  // namespace harness

@@ -1,0 +1,225 @@
+#include "harness/report/run_figures.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "harness/csv_reader.hpp"
+#include "harness/ellipse.hpp"
+#include "harness/log_stream.hpp"
+#include "harness/report/downsampling.hpp"
+#include "harness/score/chi_square.hpp"
+#include "harness/score_folder.hpp"
+
+namespace harness {
+
+namespace {
+
+constexpr std::size_t most_bins = 1'200;       // [-] of a curve over time
+constexpr std::size_t most_poses = 4'000;      // [-] of a trajectory
+constexpr std::size_t most_landmarks = 4'000;  // [-] of a map
+constexpr std::size_t most_ellipses = 500;     // [-] of a map
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+FigureCurve curve_of(const Drawn& estimator, Mark mark, Points points) {
+  return {estimator.name, estimator.colour, mark, std::move(points.x), std::move(points.y)};
+}
+
+/// Leaves out what is not finite.
+void add(double x, double y, Points& points) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return;
+  points.x.push_back(x);
+  points.y.push_back(y);
+}
+
+FigureCurve trajectory(const std::filesystem::path& folder, const Drawn& which) {
+  Points points;
+  for (const TimedPose& pose : read_trajectory(folder, which.name))
+    add(pose.T_world_robot.x, pose.T_world_robot.y, points);
+  return curve_of(which, Mark::line, thinned(std::move(points), most_poses));
+}
+
+void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance, FigureCurve& curve) {
+  constexpr int corners = 24;
+  const Eigen::Matrix2d axes = ellipse_axes(covariance, 2.0);
+  for (int i = 0; i <= corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    const Eigen::Vector2d p = mean + axes * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    curve.x.push_back(p.x());
+    curve.y.push_back(p.y());
+  }
+  curve.x.push_back(gap);
+  curve.y.push_back(gap);
+}
+
+using Ids = std::set<seif::LandmarkId>;
+
+void add_map(const std::filesystem::path& folder, const Drawn& estimator, const Ids& left_out,
+             Figure& figure) {
+  std::vector<MapRecord> map = read_map(folder, estimator.name);
+  std::erase_if(map, [&](const MapRecord& landmark) { return left_out.contains(landmark.landmark); });
+  Points points;
+  for (const std::size_t i : spread_sample(map.size(), most_landmarks))
+    add(map[i].mean.x(), map[i].mean.y(), points);
+  FigureCurve ellipses{estimator.name, estimator.colour, Mark::thin_line};
+  for (const std::size_t i : spread_sample(map.size(), most_ellipses)) {
+    if (map[i].covariance) add_ellipse(map[i].mean, *map[i].covariance, ellipses);
+  }
+  figure.curves.push_back(curve_of(estimator, Mark::crosses, std::move(points)));
+  if (!ellipses.x.empty()) figure.curves.push_back(std::move(ellipses));
+}
+
+/// Returns those that are left out, so that none of them is drawn where an estimator has it.
+Ids add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
+  Ids left_out;
+  if (!std::filesystem::exists(file)) return left_out;
+  const std::vector<TrueLandmark> landmarks = read_landmarks(file);
+  for (const TrueLandmark& landmark : landmarks) left_out.insert(landmark.landmark);
+  Points points;
+  for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks)) {
+    add(landmarks[i].position.x(), landmarks[i].position.y(), points);
+    left_out.erase(landmarks[i].landmark);
+  }
+  figure.curves.push_back(curve_of(truth, Mark::circles, std::move(points)));
+  return left_out;
+}
+
+Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+  Figure figure{
+      .id = "map", .title = "Trajectories and maps", .x = {"x [m]"}, .y = {"y [m]"}, .is_map = true};
+  figure.caption =
+      "Circles are the landmarks as they are, crosses where the estimators have them at the end, each with "
+      "its "
+      "2-sigma ellipse. Of large maps at most 4,000 landmarks and 500 ellipses are drawn, evenly spread.";
+  const Drawn truth{"truth", palette::truth};
+  if (std::filesystem::exists(folder / "truth.tum")) figure.curves.push_back(trajectory(folder, truth));
+  const Ids left_out = add_true_landmarks(folder / "landmarks.csv", truth, figure);
+  figure.curves.push_back(trajectory(folder, {"odometry", palette::odometry}));
+  for (const Drawn& estimator : estimators) {
+    figure.curves.push_back(trajectory(folder, estimator));
+    add_map(folder, estimator, left_out, figure);
+  }
+  return figure;
+}
+
+/// Distance and angle between estimate and truth.
+std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::vector<Drawn> moving) {
+  std::array<Figure, 2> figures = {
+      Figure{.id = "position-error",
+             .title = "Error of the position",
+             .x = {"time [s]"},
+             .y = {"error [m]", true}},
+      Figure{
+          .id = "heading-error", .title = "Error of the heading", .x = {"time [s]"}, .y = {"error [deg]"}}};
+  figures[0].caption = "Distance from the true position after each update.";
+  figures[1].caption = "Estimated less true heading after each update; odometry's is hidden at first.";
+  moving.insert(moving.begin(), {"odometry", palette::odometry});
+  for (const Drawn& one : moving) {
+    std::array<Points, 2> points;
+    for (const PosePair& pair : read_poses(folder, one.name)) {
+      const Eigen::Vector3d error = pose_error(pair.est_pose, pair.true_pose);
+      add(pair.t, error.head<2>().norm(), points[0]);
+      add(pair.t, degrees * error.z(), points[1]);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (points[i].x.empty()) continue;
+      figures.at(i).curves.push_back(
+          curve_of(one, Mark::line, smallest_and_largest(std::move(points.at(i)), most_bins)));
+    }
+  }
+  if (figures[1].curves.size() > 1) figures[1].curves.front().is_hidden = true;  // as large as a circle
+  return figures;
+}
+
+Figure nees_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators, int column,
+                   Figure figure) {
+  figure.x = {"time [s]"};
+  figure.y = {"NEES [-]", true};
+  for (const Drawn& estimator : estimators) {
+    CsvReader rows(
+        folder / (estimator.name + "_consistency.csv"),
+        {{"t", "nees_pose", "nees_landmark", "landmarks_scored", "landmarks_mapped", "memory_bytes"}, {}});
+    Points points;
+    while (rows.next()) {
+      if (!rows.is_empty(column)) add(rows.number(0), rows.number(column), points);
+    }
+    if (points.x.empty()) continue;
+    points = smallest_and_largest(std::move(points), most_bins);
+    figure.curves.push_back(curve_of(estimator, Mark::line, points));
+    figure.curves.push_back(curve_of(estimator, Mark::points, std::move(points)));
+  }
+  return figure;
+}
+
+Figure pose_nees_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+  const ConfidenceInterval band = chi_square_band(3);
+  Figure figure{.id = "nees-pose", .title = "Consistency of the pose"};
+  figure.caption =
+      "Normalised estimation error squared of the pose for each degree of freedom, at the scoring times: 1 "
+      "is "
+      "right, more is overconfident. 95 % of a right filter's values lie in the shaded band.";
+  figure.bands = {{"95 %", band.low, band.high}};
+  return nees_figure(folder, estimators, 1, std::move(figure));
+}
+
+Figure map_nees_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+  const ConfidenceInterval band = chi_square_band(2);
+  Figure figure{.id = "nees-map", .title = "Consistency of the map"};
+  figure.caption =
+      "The mean over the landmarks of each one's NEES for each degree of freedom. They share the map's "
+      "errors, so "
+      "their mean is no calmer than the values of a single one, 95 % of which lie in the shaded band.";
+  figure.bands = {{"95 % of single landmarks", band.low, band.high}};
+  return nees_figure(folder, estimators, 2, std::move(figure));
+}
+
+Figure time_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+  Figure figure{
+      .id = "update-time", .title = "Time for each update", .x = {"time [s]"}, .y = {"update [us]", true}};
+  figure.caption =
+      "Wall time of an update, from scan to scan. Where there are many, the least and the most of each "
+      "stretch.";
+  for (const Drawn& estimator : estimators) {
+    CsvReader rows(folder / (estimator.name + "_times.csv"),
+                   {{"t", "update", "motion", "measurement", "sparsification", "mean_recovery"}, {}});
+    Points points;
+    while (rows.next()) add(rows.number(0), rows.number(1), points);
+    if (points.x.empty()) continue;
+    figure.curves.push_back(
+        curve_of(estimator, Mark::thin_line, smallest_and_largest(std::move(points), most_bins)));
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Drawn> drawn(const std::vector<std::string>& names, const std::vector<std::string>& types) {
+  constexpr std::array<Rgb, 6> others = {palette::sky_blue, palette::orange, palette::purple,
+                                         palette::yellow,   0x8C5A2B,        0x2F6F95};
+  std::vector<Drawn> drawn;
+  const auto is_free = [&](Rgb colour) {
+    return std::ranges::find(drawn, colour, &Drawn::colour) == drawn.end();
+  };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Rgb colour = colour_of_estimator(types[i]);
+    if (const auto* free = std::ranges::find_if(others, is_free); !is_free(colour) && free != others.end())
+      colour = *free;
+    drawn.push_back({names[i], colour});
+  }
+  return drawn;
+}
+
+std::vector<Figure> run_figures(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+  std::vector<Figure> figures = {map_figure(folder, estimators)};
+  std::ranges::move(error_figures(folder, estimators), std::back_inserter(figures));
+  figures.push_back(pose_nees_figure(folder, estimators));
+  figures.push_back(map_nees_figure(folder, estimators));
+  figures.push_back(time_figure(folder, estimators));
+  std::erase_if(figures, [](const Figure& figure) { return figure.curves.empty(); });
+  return figures;
+}
+
+}  // namespace harness

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "harness/csv_reader.hpp"
+#include "harness/csv_writer.hpp"
+#include "harness/film/matrix_picture.hpp"
+#include "harness/rebuilding.hpp"
+#include "harness/replay_settings.hpp"
+#include "harness/report/pages.hpp"
+#include "harness/report/run_figures.hpp"
+#include "harness/run_folder.hpp"
+#include "harness/score/details.hpp"
+#include "harness/scoreboard.hpp"
+
+namespace harness {
+
+namespace {
+
+std::vector<std::string> names_of(const Summary& summary) {
+  std::vector<std::string> names;
+  for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
+  return names;
+}
+
+/// Of the estimators, where the settings of the run say it; else their names.
+std::vector<std::string> types_of(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                                  const seif::Registry& registry) {
+  std::vector<std::string> types = names;
+  const worlds::LoadResult settings = load_replay_settings(folder, {}, registry);
+  if (!settings.world) return types;
+  for (const worlds::EstimatorChoice& choice : settings.world->estimators)
+    std::ranges::replace(types, choice.name, choice.type);
+  return types;
+}
+
+std::vector<Fact> facts_of(const Summary& summary) {
+  std::vector<Fact> facts = {{"World", summary.world},
+                             {"Seed", fmt::format("{}", summary.seed)},
+                             {"Simulated time", fmt::format("{:.1f} s", summary.duration)},
+                             {"Updates", fmt::format("{}", summary.updates)},
+                             {"Times real time", fmt::format("{:.1f}", summary.realtime_factor)},
+                             {"Made by version", summary.version},
+                             {"Trajectory hash", summary.trajectory_hash}};
+  if (summary.interrupted) facts.push_back({"Interrupted", "before its end"});
+  for (std::size_t i = 0; i < summary.failures.size(); ++i) {
+    if (!summary.failures[i].empty())
+      facts.push_back({"Failed", summary.score.estimators[i].name + " " + summary.failures[i]});
+  }
+  return facts;
+}
+
+std::vector<Table> tables_of(const Summary& summary) {
+  std::vector<Table> tables = {
+      {"Scores", accuracy_table(summary),
+       "NEES is the squared error over what the filter believes its variance to be, for each degree of "
+       "freedom: 1 is right. Aligned errors are those after the rigid motion that makes them smallest."},
+      {"Cost of an update", cost_table(summary)}};
+  std::erase_if(tables, [](const Table& table) { return table.rows.size() < 2; });
+  return tables;
+}
+
+std::vector<Table> tables_of(const RunDetails& details) {
+  const std::vector<std::vector<TextRow>> rows = details_tables(details);
+  std::vector<Table> tables = {
+      {"The map", rows[0], "Inside: the share of NEES, of so many, that lie in the 95 % band."},
+      {"As seen from the robot", rows[1],
+       "NEES of the landmarks in the robot's frame, and NIS, the normalised innovation squared: 1 is right."},
+      {"Relative pose error along the path", rows[2]}};
+  if (details.closures > 0)
+    tables.push_back({"Error of the position after a loop closure [m]", rows[3],
+                      fmt::format("Root mean square over {} closures.", details.closures)});
+  std::erase_if(tables, [](const Table& table) { return table.rows.size() < 2; });
+  return tables;
+}
+
+MatrixFigure matrix_of(const LiveEstimator& estimator) {
+  PointIndex map(1.0);
+  for (const seif::LandmarkEstimate& landmark : estimator.filter->map())
+    map.put(landmark.landmark, landmark.mean);
+  MatrixPicture picture;
+  picture.read(*estimator.filter, map);
+  const bool is_covariance = picture.matrix() == seif::BeliefMatrix::covariance;
+  MatrixFigure figure{.id = "matrix-" + file_name_of(estimator.name),
+                      .title = estimator.name + (is_covariance ? ", covariance" : ", information")};
+  figure.caption = fmt::format("{:.1f} % of {} x {} blocks are not zero.", 100.0 * picture.fill(),
+                               map.size() + 1, map.size() + 1);
+  figure.size = static_cast<std::size_t>(picture.size());
+  for (const float strength : picture.cells())
+    figure.cells.push_back(
+        static_cast<std::uint8_t>(std::lround(255.0F * std::min(1.0F, MatrixPicture::darkness(strength)))));
+  return figure;
+}
+
+/// What a replay tells: scores into `details`, and the matrices as they are at the end.
+void add_replayed(const std::filesystem::path& folder, const Summary& summary, const seif::Registry& registry,
+                  RunDetails& details, Page& page) {
+  const TemporaryFolder replayed;
+  std::vector<MatrixFigure> matrices;
+  const auto look = [&](const Believers& believers) {
+    for (const LiveEstimator& estimator : believers.estimators) {
+      if (estimator.failure.empty() && estimator.filter->belief_matrix() != seif::BeliefMatrix::none)
+        matrices.push_back(matrix_of(estimator));
+    }
+  };
+  const auto go_without = [&](const std::exception& error) {
+    page.matrices_note = fmt::format("Not known, since the run cannot be replayed: {}", error.what());
+  };
+  try {
+    const std::vector<RebuiltScore> scores = rebuild(
+        {.run = folder, .to = replayed.path(), .estimators = names_of(summary)}, summary, registry, look);
+    for (std::size_t i = 0; i < scores.size(); ++i) details.estimators.at(i).rebuilt = scores[i];
+    page.matrices = std::move(matrices);
+    page.matrices_note =
+        "What each filter keeps at the end: the robot first, then the landmarks in the order in which they "
+        "joined "
+        "the map. White is zero; the darker, the stronger.";
+  } catch (const NotReplayed& error) {
+    go_without(error);
+  } catch (const BadInput& error) {
+    go_without(error);
+  }
+}
+
+/// The newest film in the folder.
+std::optional<std::filesystem::path> find_film(const std::filesystem::path& folder) {
+  std::optional<std::filesystem::path> newest;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (!entry.is_regular_file() || (extension != ".mp4" && extension != ".webm" && extension != ".gif"))
+      continue;
+    if (!newest || entry.last_write_time() > std::filesystem::last_write_time(*newest)) newest = entry.path();
+  }
+  return newest;
+}
+
+}  // namespace
+
+Page run_page(const std::filesystem::path& folder, const seif::Registry& registry, bool replays) {
+  Summary summary = read_summary(folder / "summary.json");
+  const std::vector<std::string> names = names_of(summary);
+  summary.score = score_folder(folder, names, summary.rpe_interval);
+  RunDetails details = score_details(folder, names, {});
+  Page page;
+  page.title = fmt::format("{}, seed {}", summary.world, summary.seed);
+  page.facts = facts_of(summary);
+  page.figures = run_figures(folder, drawn(names, types_of(folder, names, registry)));
+  if (replays) add_replayed(folder, summary, registry, details, page);
+  page.tables = tables_of(summary);
+  page.details = tables_of(details);
+  page.film = find_film(folder);
+  if (std::filesystem::exists(folder / "world.yaml"))
+    page.listings.push_back(
+        {"The world, with all that it extends and that was set", read_whole_file(folder / "world.yaml")});
+  return page;
+}
+
+Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays) {
+  if (std::filesystem::exists(folder / "sweep.json")) return sweep_page(folder);
+  if (std::filesystem::exists(folder / "stress.json")) return stress_page(folder);
+  if (std::filesystem::exists(folder / "summary.json")) return run_page(folder, registry, replays);
+  throw BadInput(
+      fmt::format("{}: is no folder of a run, a sweep or a stress test: there is no summary.json, "
+                  "sweep.json or stress.json",
+                  folder.string()));
+}
+
+}  // namespace harness

@@ -1,0 +1,28 @@
+// Scores for which the folder of a run holds too little: a replay of it rebuilds them. Definitions:
+// docs/scores.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+
+#include "harness/score.hpp"
+
+namespace harness {
+
+/// What is not available is nothing.
+struct RebuiltScore {
+  std::optional<double> nis;                             // [-] mean over the observations
+  std::size_t observations = 0;                          // [-] that have one
+  std::optional<double> nis_inside;                      // [-] share of them inside the chi-square band
+  std::optional<double> nees_landmark_from_robot;        // [-] mean over the scoring times
+  std::optional<double> nees_landmark_from_robot_final;  // [-]
+  std::optional<double> landmarks_from_robot_inside;  // [-] at the end, share of the sample inside the band
+};
+
+/// The NEES per degree of freedom of where a landmark is as seen from the robot. `joint` is the covariance of
+/// the estimated pose and landmark, (5 x 5) of [x y theta m_x m_y].
+std::optional<double> nees_from_robot(const PosePair& pose, const PointPair& landmark,
+                                      const Eigen::Matrix<double, 5, 5>& joint);
+
+}  // namespace harness

@@ -1,0 +1,76 @@
+// What filters tell of the pose together with a landmark, against the inverse of the whole matrix.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "driven_state.hpp"
+#include "every_filter.hpp"
+#include "matrix_of.hpp"
+#include "ring_drive.hpp"
+#include "seif/marginals.hpp"
+
+namespace seif {
+namespace {
+
+/// Rows and columns of the pose and of the landmark in this slot.
+JointCovariance joint_block(const Eigen::MatrixXd& Sigma, int slot) {
+  const std::vector<int> rows{0, 1, 2, 3 + 2 * slot, 4 + 2 * slot};
+  return Sigma(rows, rows);
+}
+
+class JointCovariancesOf : public testing::TestWithParam<std::string> {
+ protected:
+  JointCovariancesOf() : filter(test::make(GetParam(), drive.setup())) {
+    for (int k = 0; k < 1.3 * drive.steps_for_a_round(); ++k) drive.step(*filter);
+  }
+
+  void expect_blocks_of(const Eigen::MatrixXd& Sigma, const std::vector<int>& slots) const {
+    const std::vector<LandmarkEstimate> map = filter->map();
+    std::vector<LandmarkId> ids;
+    for (const int slot : slots) ids.push_back(map.at(static_cast<std::size_t>(slot)).landmark);
+    const auto joint = filter->joint_covariances(ids);
+    ASSERT_TRUE(joint);
+    ASSERT_EQ(joint->size(), slots.size());
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const JointCovariance expected = joint_block(Sigma, slots[i]);
+      EXPECT_LT(((*joint)[i] - expected).norm(), 1e-8 * expected.norm()) << "slot " << slots[i];
+    }
+  }
+
+  Eigen::MatrixXd Sigma() const {
+    const Eigen::MatrixXd M = test::matrix_of(*filter);
+    return GetParam() == "ekf" ? M : oracle::inverse(M);
+  }
+
+  test::RingDrive drive{test::under_sanitizer ? 40 : 60, 17};
+  std::unique_ptr<Estimator> filter;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, JointCovariancesOf, testing::ValuesIn(test::every_filter()), test::name_of);
+
+TEST_P(JointCovariancesOf, AreBlocksOfTheDenseCovariance) {
+  std::vector<int> all(filter->map().size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(all.size() - 1 - i);
+  expect_blocks_of(Sigma(), all);
+  expect_blocks_of(Sigma(), {3, 17, 4});
+}
+
+TEST_P(JointCovariancesOf, HoldBetweenAMotionAndItsScan) {
+  drive.advance();
+  filter->motion_update(drive.odometry());
+  expect_blocks_of(Sigma(), {0, 9, 30});
+}
+
+TEST(JointCovariances, AreNothingWhereOmegaIsIndefinite) {
+  oracle::RandomDrive random(21);
+  InformationState state(test::start);
+  test::drive(state, random, 7);
+  const std::vector<LandmarkId> one{state.id(0)};
+  EXPECT_TRUE(joint_covariances_of(state, one));
+  state.Omega()(0, 0) = -1.0;
+  EXPECT_FALSE(joint_covariances_of(state, one));
+}
+
+}  // namespace
+}  // namespace seif

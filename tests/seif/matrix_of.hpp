@@ -1,0 +1,27 @@
+// The dense matrix of any filter of the library: what its own answers are held against.
+#pragma once
+
+#include "dense_oracle.hpp"
+#include "seif/eif.hpp"
+#include "seif/ekf.hpp"
+#include "seif/eseif.hpp"
+#include "seif/report_seif.hpp"
+#include "seif/seif.hpp"
+
+namespace seif::test {
+
+/// The whole matrix that a filter keeps: Sigma of an `ekf`, Omega of any other.
+inline Eigen::MatrixXd matrix_of(const Estimator& filter) {
+  if (const auto* seif = dynamic_cast<const Seif*>(&filter))
+    return oracle::symmetric(seif->state().full_Omega());
+  if (const auto* report = dynamic_cast<const ReportSeif*>(&filter)) {
+    return oracle::symmetric(report->state().full_Omega());
+  }
+  if (const auto* eseif = dynamic_cast<const Eseif*>(&filter)) {
+    return oracle::symmetric(eseif->state().full_Omega());
+  }
+  if (const auto* eif = dynamic_cast<const Eif*>(&filter)) return eif->Omega();
+  return dynamic_cast<const Ekf&>(filter).Sigma();
+}
+
+}  // namespace seif::test
