@@ -38,7 +38,7 @@ struct CondensationOptions {
   double grain = 0.25;  // [-] distance over size of the coarsest groups
   /// [-] Blocks of messages that one update makes ready for the next zone, and perhaps one message more. 0:
   /// all at once, as soon as a landmark is seen outside of the zone.
-  int most_blocks = 8'000;
+  int most_blocks = 12'000;
   // In multiples of how far the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,

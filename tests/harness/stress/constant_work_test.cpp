@@ -52,9 +52,10 @@ TEST(ConstantWork, FromAThousandLandmarksToFiftyThousand) {
   EXPECT_NEAR(large.blocks / small.blocks, 1.0, 0.1);
   EXPECT_GT(large.rays, 3.0);
   EXPECT_GT(large.blocks, 100.0);
-  // What is allocated at all is the growth of scratch that has not met its largest case yet.
-  EXPECT_NEAR(large.allocations, small.allocations, 0.1);
-  EXPECT_LT(large.allocations, 1.0);
+  // What is allocated at all is the growth of what has not met its largest case yet: in a large map, the
+  // messages of places that the robot has come by only once.
+  EXPECT_LT(small.allocations, 0.5);
+  EXPECT_LT(large.allocations, 0.5);
 }
 
 }  // namespace
