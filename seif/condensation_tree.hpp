@@ -34,11 +34,11 @@ struct CondensationOptions {
   int most_in_leaf = 8;  // [-] landmarks of a leaf as it grows
   int most_hot = 24;     // [-] landmarks beyond which leaves without an active one do not stay hot
   /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
-  int most_unknowns = 160;
+  int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
   /// [-] Blocks of messages that one update makes ready for the next zone, and perhaps one message more. 0:
   /// all at once, as soon as a landmark is seen outside of the zone.
-  int most_blocks = 12'000;
+  int most_blocks = 20'000;
   // In multiples of how far the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,

@@ -192,6 +192,24 @@ void Front::add_to_rows(const Target& target, double value) {
   if (target.second >= 0) r_(target.second) += target.weight * value;
 }
 
+/// Cholesky of the first e of n columns, some at a time: so few that Eigen's products need no memory of the
+/// heap.
+bool Front::eliminate(Eigen::Index e, Eigen::Index n) {
+  constexpr Eigen::Index most_columns = 48;
+  for (Eigen::Index from = 0; from < e; from += most_columns) {
+    const Eigen::Index columns = std::min(most_columns, e - from);
+    const Eigen::Index next = from + columns;
+    auto block = M_.block(from, from, columns, columns);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(block);
+    if (llt.info() != Eigen::Success) return false;
+    if (next == n) continue;
+    auto below = M_.block(next, from, n - next, columns);
+    llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(below);
+    M_.block(next, next, n - next, n - next).selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+  }
+  return true;
+}
+
 bool Front::factorise(Condensed& out) {
   give_rows(out);
   for (const Variable& v : variables_) {
@@ -206,24 +224,14 @@ bool Front::factorise(Condensed& out) {
   const Eigen::Index e = out.e;
   const Eigen::Index b = out.b;
   const Eigen::Index n = e + b;
-  auto M_EE = M_.topLeftCorner(e, e);
-  auto M_BE = M_.block(e, 0, b, e);
-  auto M_BB = M_.block(e, e, b, b);
-  if (e > 0) {
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(M_EE);
-    if (llt.info() != Eigen::Success) return false;
-    if (b > 0) {
-      llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(M_BE);
-      M_BB.selfadjointView<Eigen::Lower>().rankUpdate(M_BE, -1.0);
-    }
-  }
+  if (!eliminate(e, n)) return false;
   out.factor.reserve(static_cast<std::size_t>(n * e));
   for (Eigen::Index col = 0; col < e; ++col) {
     out.factor.insert(out.factor.end(), &M_(0, col), &M_(0, col) + n);
   }
   out.S.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
   for (Eigen::Index col = 0; col < b; ++col) {
-    out.S.insert(out.S.end(), &M_BB(col, col), &M_BB(col, col) + (b - col));
+    out.S.insert(out.S.end(), &M_(e + col, e + col), &M_(e + col, e + col) + (b - col));
   }
   return true;
 }

@@ -144,6 +144,7 @@ class Front {
   void add_tied(const Condensed& part);
   void add_to_rows(const Target& target, double value);
   void assemble(const Condensed& out);
+  bool eliminate(Eigen::Index e, Eigen::Index n);
   bool factorise(Condensed& out);
 
   int front_ = 0;

@@ -29,7 +29,7 @@ inline constexpr std::array<PaperRow, 9> paper_rows = {{
     {"seif_exact", "{theta_x: 6}", "SEIF, exact mean", "Cholesky"},
     {"seif_report", "{theta_x: 6, K: 10}", "SEIF, constant time", "O(1)"},
     {"seif", "{}", "ours", "O(log N)"},
-    {"seif_tree", "{type: seif, mean_recovery: tree}", "ours, along a tree", "O(log N)"},
+    {"seif_groups", "{type: seif, mean_recovery: multilevel}", "ours, mean by groups", "O(log N)"},
     {"seif_gauge_free", "{}", "our rule, exact mean", "Cholesky"},
     {"seif_modified", "{}", "modified rule, exact mean", "Cholesky"},
     {"eseif", "{}", "exactly sparse, exact mean", "Cholesky"},
