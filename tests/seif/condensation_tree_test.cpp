@@ -244,6 +244,7 @@ TEST_P(InWorld, TheMeanIsTheExactSolutionWhileTheZoneMovesInSlices) {
     SCOPED_TRACE(seed);
     expect_exact_mean({test::landmarks_along(path, seed), path, seed}, sliced(deep), &waited);
   }
+  if (test::under_sanitizer) return;                  // one seed, in which nothing may have had to wait
   EXPECT_EQ(waited > 0, GetParam().name != "Chain");  // which never comes back
 }
 

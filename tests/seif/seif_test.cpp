@@ -28,12 +28,11 @@ double blocks_touched(int landmarks, SeifMean mean) {
 }
 
 // Not equal: the number of levels, of the tree or of groups, grows with log N. From 1,000 to 20,000 landmarks
-// that is some levels more; with sanitizers, which are slow, the maps are smaller.
+// that is some levels more.
 TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
+  if (test::under_sanitizer) GTEST_SKIP() << "the counts are those of other builds, and take minutes here";
   for (const SeifMean mean : {SeifMean::tree, SeifMean::multilevel}) {
-    const double small = blocks_touched(test::under_sanitizer ? 400 : 1'000, mean);
-    const double large = blocks_touched(test::under_sanitizer ? 800 : 20'000, mean);
-    EXPECT_NEAR(large / small, 1.0, 0.15);
+    EXPECT_NEAR(blocks_touched(20'000, mean) / blocks_touched(1'000, mean), 1.0, 0.15);
   }
 }
 
