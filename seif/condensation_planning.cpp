@@ -19,13 +19,15 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   };
   for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
   for (const int slot : slots) want(place(slot).leaf);
-  // Leaves stay where their landmarks first were, however a closure has bent the map since.
-  const double ahead = options_.most_blocks > 0 ? view_ : 0.0;
-  const Eigen::Vector2d middle =
-      state.linearisation_pose() * Eigen::Vector2d(options_.zone_before * ahead, 0.0);
-  if (ahead > 0.0) tree_.for_each_leaf_near(middle, options_.look_ahead * ahead, want);
+  const auto want_near = [&](double views) {
+    if (options_.most_blocks == 0) return;  // what is wanted comes at once
+    // Leaves stay where their landmarks first were, however a closure has bent the map since.
+    const Eigen::Vector2d before_robot(options_.zone_before * view_, 0.0);
+    tree_.for_each_leaf_near(state.linearisation_pose() * before_robot, views * view_, want);
+  };
+  want_near(options_.look_ahead);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return node(leaf).hot; });
-  if (ahead > 0.0) tree_.for_each_leaf_near(middle, options_.zone_ahead * ahead, want);
+  want_near(options_.zone_ahead);
   const bool may_stay = all_hot && zone_.size() <= std::max(options_.most_hot, landmarks + landmarks / 2);
   if (!may_stay) add_last_used(landmarks);
   for (const int leaf : chosen) node(leaf).wanted = false;
@@ -46,10 +48,21 @@ void CondensationTree::add_last_used(int landmarks) {
   }
 }
 
-/// For plan_.hot_leaves. Only messages that then say something else, or go elsewhere, are sent anew: those on
-/// the way from a leaf that becomes hot or cold to the hub, from the old hub to the new one, and with groups
-/// that will be too near.
-void CondensationTree::begin_plan(const InformationState& state) {
+/// For plan_.hot_leaves.
+void CondensationTree::begin_plan(const InformationState& state) { prepare_plan(state, mark_plan()); }
+
+/// Whatever was planned before has been done. All nodes send anew, without any group.
+void CondensationTree::begin_plan_of_all(const InformationState& state) {
+  plan_.hot_leaves = hot_leaves_;
+  const int hub = mark_plan();
+  for (int at = 0; at < tree_.size(); ++at) mark_stale(at);
+  prepare_plan(state, hub);
+}
+
+/// Only messages that then say something else, or go elsewhere, are sent anew: those on the way from a leaf
+/// that becomes hot or cold to the hub, from the old hub to the new one, and with groups that will be too
+/// near. Returns the new hub.
+int CondensationTree::mark_plan() {
   plan_.is_running = true;
   ++plan_.number;
   plan_.stale.clear();
@@ -60,15 +73,7 @@ void CondensationTree::begin_plan(const InformationState& state) {
   mark_stale(hub);
   mark_expired(tree_.hub());
   tree_.plan_hub(hub);
-  prepare_plan(state, hub);
-}
-
-/// Whatever was planned before has been done. All nodes send anew, without any group.
-void CondensationTree::begin_plan_of_all(const InformationState& state) {
-  plan_.hot_leaves = hot_leaves_;
-  begin_plan(state);
-  for (int at = 0; at < tree_.size(); ++at) mark_stale(at);
-  prepare_plan(state, tree_.common_ancestor(hot_leaves_));
+  return hub;
 }
 
 void CondensationTree::prepare_plan(const InformationState& state, int hub) {

@@ -65,9 +65,9 @@ void CondensationTree::residual_of_leaf(const InformationState& state, int leaf,
   });
 }
 
-/// What the messages to a node hold of the residual of hot landmarks.
-void CondensationTree::take_from_loose(const InformationState& state, int at) {
-  for_each_part(at, [&](int source) {
+/// What the messages to the hub hold of the residual of hot landmarks.
+void CondensationTree::take_from_loose(const InformationState& state) {
+  for_each_part(tree_.hub(), [&](int source) {
     const Condensed& m = sent(source).message;
     const auto r = residual_of(state, source);
     Eigen::Index row = 0;
@@ -87,7 +87,7 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
     p.loose.setZero();
     if (position >= 0) p.loose = state.r().segment<2>(InformationState::row_of(position));
   }
-  take_from_loose(state, tree_.hub());
+  take_from_loose(state);
   const Condensed& to_zone = sent(tree_.hub()).message;
   reserve_boundary(to_zone.b);
   auto d = part_step_.head(to_zone.b);
@@ -170,15 +170,15 @@ void CondensationTree::settle(FrontVariable v, int at) {
 
 void CondensationTree::condense_residual(const InformationState& state, int at, Condensed& message) {
   front_.begin_residual(message);
-  if (!sent(at).is_bare)
-    for_each_part(at, [&](int source) {
-      const Condensed& part = sent(source).message;
-      if (is_stale(source)) {  // and by now replaced: it has told of the residual where the means are
-        front_.add_residual(part, Eigen::Map<const Eigen::VectorXd>(part.s.data(), part.b));
-      } else {
-        front_.add_residual(part, residual_of(state, source));
-      }
-    });
+  const auto add_part = [&](int source) {
+    const Condensed& part = sent(source).message;
+    if (is_stale(source)) {  // and by now replaced: it has told of the residual where the means are
+      front_.add_residual(part, Eigen::Map<const Eigen::VectorXd>(part.s.data(), part.b));
+    } else {
+      front_.add_residual(part, residual_of(state, source));
+    }
+  };
+  if (!sent(at).is_bare) for_each_part(at, add_part);
   const bool is_hub = tree_.towards(at) == none;
   if (is_hub || tree_.is_leaf(at)) {
     const auto add_loose = [&](FrontVariable v) {

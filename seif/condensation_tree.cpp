@@ -1,5 +1,5 @@
-// The live path: joining, activation, the solution, and reading. How the zone moves is in
-// condensation_planning.cpp.
+// The live path: joining, activation, the solution, and reading. How the zone moves is planned in
+// condensation_planning.cpp, made ready in condensation_sending.cpp, done in condensation_switching.cpp.
 #include "seif/condensation_tree.hpp"
 
 #include <Eigen/Cholesky>
@@ -26,7 +26,7 @@ int CondensationTree::add_leaf(const Eigen::Vector2d& place) {
   return leaf;
 }
 
-/// By its first landmark, which its box begins with.
+/// By the middle of its box.
 void CondensationTree::attach(int leaf) {
   tree_.attach(leaf);
   while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
@@ -61,8 +61,8 @@ void CondensationTree::join(const InformationState& state, int slot) {
 
 bool CondensationTree::activate(InformationState& state, std::vector<int>& slots, double range) {
   ++scan_;
-  constexpr double forget = 0.99;  // with each scan
-  view_ = std::max(range, forget * view_);
+  constexpr double kept = 0.99;  // of it, at a scan that sees less far
+  view_ = std::max(range, kept * view_);
   for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
   for (const int slot : slots) node(place(slot).leaf).used = scan_;
   if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
@@ -101,8 +101,9 @@ bool CondensationTree::work_on_plan(InformationState& state) {
   const std::int64_t before = blocks_touched_;
   if (!make_ready(state, options_.most_blocks)) return false;
   if (plan_.ready < plan_.order.size()) return true;
+  const bool is_all_at_once = options_.most_blocks == 0;
   const bool has_time = 4 * (blocks_touched_ - before) <= options_.most_blocks;
-  return options_.most_blocks > 0 && !has_time ? true : move_zone(state);
+  return !(is_all_at_once || has_time) || move_zone(state);
 }
 
 bool CondensationTree::solve_all(InformationState& state) {

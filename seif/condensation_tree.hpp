@@ -88,8 +88,8 @@ class CondensationTree {
   Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
   const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
   Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
-  const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
   template <class Visit>
   void for_each_landmark(int leaf, Visit&& visit) const {
     for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
@@ -123,6 +123,7 @@ class CondensationTree {
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
   void add_last_used(int landmarks);
   void begin_plan(const InformationState& state);
+  int mark_plan();
   void begin_plan_of_all(const InformationState& state);
   void prepare_plan(const InformationState& state, int hub);
   void put_in_order(int at);
@@ -156,7 +157,7 @@ class CondensationTree {
   // Switching.
   bool move_zone(InformationState& state);
   void note_zone_residual(const InformationState& state);
-  void take_from_loose(const InformationState& state, int at);
+  void take_from_loose(const InformationState& state);
   void loosen(const InformationState& state, int leaf);
   void switch_leaves();
   void replace(const InformationState& state, int at);
