@@ -35,8 +35,8 @@ class Batch final : public seif::Estimator {
       std::span<const seif::LandmarkId> landmarks) const override;
 
   /// Nothing unless it was solved for since the last update.
-  std::optional<std::vector<seif::JointCovariance>> joint_covariances(
-      std::span<const seif::LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const seif::LandmarkIds> groups) const override;
 
   /// The optimum's poses at all scans so far. Throws as map() does.
   std::vector<seif::Pose2> trajectory() const;
@@ -55,6 +55,9 @@ class Batch final : public seif::Estimator {
   };
 
   int landmark_number(seif::LandmarkId landmark);
+  /// The covariance of the pose as it is now, after the last stretch; `of_last` is that of the last pose of
+  /// slam_.
+  Eigen::Matrix3d pose_covariance_now(const Eigen::Matrix3d& of_last) const;
   const Solved& solved() const;
 
   std::unique_ptr<seif::Estimator> guide_;

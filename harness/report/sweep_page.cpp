@@ -26,7 +26,13 @@ const PlottedScore plotted[] = {
     {"ate_rmse_m", "ate", "Error of the trajectory", {"mean ATE [m]"}},
     {"nees_pose_final", "nees-pose", "NEES of the pose at the end", {"mean NEES [-]", true}},
     {"nees_landmark_final", "nees-map", "NEES of the map at the end", {"mean NEES [-]", true}},
-    {"links", "links", "Links at the end", {"mean links [-]"}}};
+    {"nees_landmark_from_robot_final",
+     "nees-from-robot",
+     "NEES of landmarks as seen from the robot",
+     {"mean NEES [-]", true}},
+    {"nis_scan", "nis", "NIS of whole scans", {"mean NIS [-]", true}},
+    {"links", "links", "Links at the end", {"mean links [-]"}},
+    {"memory_bytes", "memory", "Memory of the filter at the end", {"mean memory [byte]", true}}};
 
 std::string paths_of(const SweepPlan& plan) {
   std::vector<std::string> paths;

@@ -144,7 +144,7 @@ TEST_F(ScoreCommand, GoesWithoutAReplayThatDoesNotComeToTheSame) {
 TEST_F(ScoreCommand, RebuildsByAReplayWhatTheFolderDoesNotHold) {
   const nlohmann::json ekf = score("")["estimators"]["ekf"];
   for (const char* key : {"nis", "nis_inside", "nees_landmark_from_robot", "nees_landmark_from_robot_final",
-                          "nees_landmark_from_robot_inside"})
+                          "nees_landmark_from_robot_inside", "nis_scan", "nis_scan_inside"})
     EXPECT_TRUE(ekf[key].is_number()) << key;
   const nlohmann::json at_every_update = score("--every-update")["estimators"]["ekf"];
   EXPECT_GT(at_every_update["nis_inside_of"], 10 * ekf["nis_inside_of"].get<int>());
