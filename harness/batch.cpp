@@ -85,18 +85,13 @@ std::vector<seif::LandmarkEstimate> Batch::map() const {
   return map;
 }
 
-Eigen::Matrix3d Batch::pose_covariance_now(const Eigen::Matrix3d& of_last) const {
-  const seif::Odometry last_pose{0.0, solved().optimum.poses.back(), of_last};
-  return compose(last_pose, since_last_pose_).covariance;
-}
-
 std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
     std::span<const seif::LandmarkId> landmarks) const {
   const Solved& now = solved();
   if (!now.Sigma) return std::nullopt;
-  seif::MarginalCovariances marginals{
-      .pose = pose_covariance_now(now.Sigma->block<3>(slam_.row_of_pose(slam_.pose_count() - 1))),
-      .landmarks = {}};
+  Eigen::MatrixXd pose = now.Sigma->block<3>(slam_.row_of_pose(slam_.pose_count() - 1));
+  move_pose(pose, now.optimum.poses.back(), since_last_pose_);
+  seif::MarginalCovariances marginals{.pose = pose, .landmarks = {}};
   marginals.landmarks.reserve(landmarks.size());
   for (const seif::LandmarkId landmark : landmarks) {
     marginals.landmarks.push_back(now.Sigma->block<2>(slam_.row_of_landmark(index_.find(landmark).value())));
@@ -115,14 +110,7 @@ std::optional<std::vector<Eigen::MatrixXd>> Batch::joint_covariances(
   }
   auto joint = seif::blocks_of_inverse(solved_->optimum.Omega, blocks);
   if (!joint) return std::nullopt;
-  const Eigen::Matrix3d F =
-      predict_pose(solved_->optimum.poses.back(), since_last_pose_).J_wrt_pose;  // of the last stretch
-  for (Eigen::MatrixXd& Sigma : *joint) {
-    const Eigen::Matrix3d pose = pose_covariance_now(Sigma.topLeftCorner<3, 3>());
-    Sigma.topRows<3>() = (F * Sigma.topRows<3>()).eval();
-    Sigma.leftCols<3>() = Sigma.topRows<3>().transpose().eval();
-    Sigma.topLeftCorner<3, 3>() = pose;
-  }
+  for (Eigen::MatrixXd& Sigma : *joint) move_pose(Sigma, solved_->optimum.poses.back(), since_last_pose_);
   return joint;
 }
 

@@ -55,9 +55,6 @@ class Batch final : public seif::Estimator {
   };
 
   int landmark_number(seif::LandmarkId landmark);
-  /// The covariance of the pose as it is now, after the last stretch; `of_last` is that of the last pose of
-  /// slam_.
-  Eigen::Matrix3d pose_covariance_now(const Eigen::Matrix3d& of_last) const;
   const Solved& solved() const;
 
   std::unique_ptr<seif::Estimator> guide_;

@@ -171,6 +171,20 @@ TEST_F(ScoreCommand, TheReferenceIsTheOptimumThatARunWithItHas) {
   EXPECT_LT(reference["rpe_trans_m"], with_it["rpe_trans_m"]) << "which looks ahead";
 }
 
+TEST_F(ScoreCommand, ThePeerIsAReferenceWithItsTimes) {
+  const test::Called called = test::call(folder, "score run --json --reference batch,mrpt_ekf");
+  if (called.exit_code == 2) {
+    EXPECT_NE(called.errors.find("libmrpt-slam-dev"), std::string::npos) << called.errors;
+    GTEST_SKIP() << "built without MRPT: " << called.errors;
+  }
+  const nlohmann::json estimators = nlohmann::json::parse(called.output)["estimators"];
+  ASSERT_EQ(estimators.size(), 4U);
+  const nlohmann::json& mrpt = estimators["mrpt_ekf"];
+  EXPECT_NEAR(mrpt["landmark_rmse_m"], estimators["ekf"]["landmark_rmse_m"], 1e-4);
+  EXPECT_NEAR(mrpt["nis_scan"], estimators["ekf"]["nis_scan"], 1e-3);
+  EXPECT_GT(mrpt["update_us"]["p50"], 0.0);
+}
+
 TEST_F(ScoreCommand, TheReferenceNeedsItsName) {
   test::call(folder, "replay run --estimators batch --out with_it --quiet");
   const test::Called called = test::call(folder, "score with_it --reference batch");
