@@ -30,7 +30,7 @@ const PlottedScore plotted[] = {
      "nees-from-robot",
      "NEES of landmarks as seen from the robot",
      {"mean NEES [-]", true}},
-    {"nis_scan", "nis", "NIS of whole scans", {"mean NIS [-]", true}},
+    {"nis_scan", "nis", "NIS of whole scans", {"mean NIS [-]"}},
     {"links", "links", "Links at the end", {"mean links [-]"}},
     {"memory_bytes", "memory", "Memory of the filter at the end", {"mean memory [byte]", true}}};
 
@@ -67,7 +67,7 @@ void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& cur
 Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
                     const std::vector<Drawn>& estimators) {
   Figure figure{.id = score.id, .title = score.title, .y = score.axis};
-  figure.x.label = paths_of(aggregate.plan);
+  figure.x.label = fmt::format("{}", fmt::join(short_paths(aggregate.plan), ", "));
   figure.caption = "Means over the seeds with their 95 % confidence intervals (Student's).";
   for (const SettingStatistics& setting : aggregate.settings)
     figure.categories.push_back(setting.values.empty() ? "all seeds"
@@ -109,6 +109,7 @@ Page sweep_page(const std::filesystem::path& folder) {
   page.facts = {{"World", plan.name},
                 {"Seeds", seeds_text(plan.seeds)},
                 {"Settings", fmt::format("{}", setting_count(plan))},
+                {"Varied", plan.axes.empty() ? "nothing" : paths_of(plan)},
                 {"Runs", fmt::format("{}", cell_count(plan))},
                 {"Failed", fmt::format("{}", aggregate.failed.size())},
                 {"Baseline", plan.baseline},

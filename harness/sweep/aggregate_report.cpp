@@ -122,8 +122,7 @@ std::string to_csv(const Aggregate& aggregate) {
 
 std::vector<TextRow> aggregate_table(const Aggregate& aggregate) {
   const SweepPlan& plan = aggregate.plan;
-  TextRow header;
-  for (const SweepAxis& axis : plan.axes) header.push_back(axis.path);
+  TextRow header = short_paths(plan);
   for (const char* column : {"estimator", "runs", "failed", "aligned [m]"}) header.emplace_back(column);
   header.push_back(fmt::format("less {}'s, 95 %", plan.baseline));
   for (const char* column : {"ATE [m]", "NEES pose", "NEES map", "from robot", "NIS", "links"})
