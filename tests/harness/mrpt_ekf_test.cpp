@@ -17,9 +17,9 @@ class MrptEkfTest : public testing::Test {
       GTEST_SKIP() << "built without MRPT; SEIFBED_PEERS=1 ./test installs it and builds with it";
   }
 
-  static worlds::World world_of(const worlds::EstimatorChoice& mrpt) {
+  static worlds::World world_of(const worlds::EstimatorChoice& peer) {
     worlds::World world = test::small_world();
-    world.estimators = {test::choice("ekf"), mrpt};
+    world.estimators = {test::choice("ekf"), peer};
     return world;
   }
 
@@ -41,22 +41,22 @@ TEST_F(MrptEkfTest, IsOurEkf) {
     EXPECT_TRUE(landmark.covariance->isApprox(*other->covariance, 1e-4)) << landmark.landmark;
   }
   const EstimatorScore& ekf = summary.score.estimators[0];
-  const EstimatorScore& mrpt = summary.score.estimators[1];
-  EXPECT_NEAR(*mrpt.trajectory.rmse, *ekf.trajectory.rmse, 1e-5);
-  EXPECT_NEAR(*mrpt.nees_pose, *ekf.nees_pose, 1e-3 * *ekf.nees_pose);
-  EXPECT_EQ(mrpt.links, ekf.links);
-  EXPECT_GT(mrpt.update_us->p50, 0.0);
+  const EstimatorScore& peer = summary.score.estimators[1];
+  EXPECT_NEAR(*peer.trajectory.rmse, *ekf.trajectory.rmse, 1e-5);
+  EXPECT_NEAR(*peer.nees_pose, *ekf.nees_pose, 1e-3 * *ekf.nees_pose);
+  EXPECT_EQ(peer.links, ekf.links);
+  EXPECT_GT(peer.update_us->p50, 0.0);
 }
 
 TEST_F(MrptEkfTest, TellsItsCovariancesBetweenAMotionAndItsScan) {
   const seif::Registry registry = test::test_registry();
   const seif::EstimatorSetup setup{
       {{1.0, 2.0, 0.3}, Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal()}, {0.2, 0.1, -0.4}, {}};
-  const auto mrpt = registry.find("mrpt_ekf")->make(setup, test::choice("mrpt_ekf").options);
+  const auto peer = registry.find("mrpt_ekf")->make(setup, test::choice("mrpt_ekf").options);
   const auto ekf = registry.find("ekf")->make(setup, {});
   const Eigen::Matrix2d noise = Eigen::Vector2d(0.01, 0.0004).asDiagonal();
   const Eigen::Matrix3d R = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
-  for (seif::Estimator* filter : {mrpt.get(), ekf.get()}) {
+  for (seif::Estimator* filter : {peer.get(), ekf.get()}) {
     const auto move = [&](double t) { filter->motion_update({t, {0.5, 0.0, 0.2}, R}); };
     const auto see = [&](double t, std::vector<seif::Observation> seen) {
       filter->measurement_update({t, std::move(seen)}, [](seif::Stage) {});
@@ -70,12 +70,12 @@ TEST_F(MrptEkfTest, TellsItsCovariancesBetweenAMotionAndItsScan) {
     move(0.4);
   }
   const std::vector<seif::LandmarkIds> groups = {{3, 7}, {7}, {}};
-  const auto theirs = mrpt->joint_covariances(groups);
+  const auto theirs = peer->joint_covariances(groups);
   const auto ours = ekf->joint_covariances(groups);
   for (std::size_t i = 0; i < groups.size(); ++i) EXPECT_TRUE((*theirs)[i].isApprox((*ours)[i], 1e-5)) << i;
-  EXPECT_TRUE(mrpt->pose_covariance()->isApprox(*ekf->pose_covariance(), 1e-5));
-  EXPECT_NEAR(mrpt->pose().x, ekf->pose().x, 1e-6);
-  EXPECT_NEAR(mrpt->pose().theta, ekf->pose().theta, 1e-6);
+  EXPECT_TRUE(peer->pose_covariance()->isApprox(*ekf->pose_covariance(), 1e-5));
+  EXPECT_NEAR(peer->pose().x, ekf->pose().x, 1e-6);
+  EXPECT_NEAR(peer->pose().theta, ekf->pose().theta, 1e-6);
 }
 
 TEST_F(MrptEkfTest, OneScalarAtOnceIsNearlyTheSame) {
