@@ -109,16 +109,15 @@ Page sweep_page(const std::filesystem::path& folder) {
   page.facts = {{"World", plan.name},
                 {"Seeds", seeds_text(plan.seeds)},
                 {"Settings", fmt::format("{}", setting_count(plan))},
-                {"Varied", plan.axes.empty() ? "nothing" : paths_of(plan)},
                 {"Runs", fmt::format("{}", cell_count(plan))},
                 {"Failed", fmt::format("{}", aggregate.failed.size())},
                 {"Baseline", plan.baseline},
                 {"Made by version", plan.version}};
   page.tables = {
       {"Means over the seeds", aggregate_table(aggregate),
-       fmt::format("The column less {}'s is the 95 % interval of the difference in the same run: where it "
+       fmt::format("{}The column less {}'s is the 95 % interval of the difference in the same run: where it "
                    "does not hold zero, the two differ.",
-                   plan.baseline)}};
+                   plan.axes.empty() ? "" : fmt::format("Varied: {}. ", paths_of(plan)), plan.baseline)}};
   const std::vector<Drawn> estimators = estimators_of(aggregate);
   for (const PlottedScore& score : plotted) {
     Figure figure = intervals_of(aggregate, score, estimators);
