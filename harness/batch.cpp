@@ -78,6 +78,15 @@ std::size_t Batch::memory_bytes() const {
          bytes_of(scan_poses_) + bytes_of(ids_) + index_.memory_bytes();
 }
 
+void Batch::landmarks(std::span<const seif::LandmarkId> landmarks,
+                      std::vector<seif::LandmarkEstimate>& out) const {
+  if (solved_) {
+    Estimator::landmarks(landmarks, out);
+  } else {
+    guide_->landmarks(landmarks, out);
+  }
+}
+
 std::vector<seif::LandmarkEstimate> Batch::map() const {
   std::vector<seif::LandmarkEstimate> map;
   map.reserve(ids_.size());

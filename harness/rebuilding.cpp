@@ -36,8 +36,9 @@ std::optional<Innovations> innovations_of(const LiveEstimator& estimator, const 
   estimator.filter->landmarks(seen, known);
   seen.clear();
   for (const seif::LandmarkEstimate& landmark : known) seen.push_back(landmark.landmark);
+  if (known.empty()) return std::nullopt;
   const auto P = estimator.filter->joint_covariances({&seen, 1});
-  if (!P || known.empty()) return std::nullopt;
+  if (!P) return std::nullopt;
   const auto size = 2 * static_cast<Eigen::Index>(known.size());
   Innovations innovations{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, 3 + size);

@@ -253,6 +253,24 @@ TEST_P(BatchDrives, KnowsThePoseTogetherWithLandmarks) {
   }
 }
 
+TEST_P(BatchDrives, IsNotSolvedForALookAtALandmark) {
+  const auto [drive, guide] = GetParam();
+  const Recording recording = record(drive, 14, 1.0, 1);
+  const auto batch = make("batch", recording.start, guide);
+  const auto alone = make(guide, recording.start);
+  feed(recording, *batch);
+  feed(recording, *alone);
+  const std::vector<seif::LandmarkId> one = {alone->map().at(1).landmark};
+  std::vector<seif::LandmarkEstimate> seen;
+  batch->landmarks(one, seen);
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].mean, alone->map().at(1).mean);
+  EXPECT_FALSE(batch->joint_covariances({})) << "it was solved for";
+  const std::vector<seif::LandmarkEstimate> optimum = batch->map();
+  batch->landmarks(one, seen);
+  EXPECT_EQ(seen.at(0).mean, std::ranges::find(optimum, one[0], &seif::LandmarkEstimate::landmark)->mean);
+}
+
 TEST_P(BatchDrives, TellsOfItsPosesAtAllScans) {
   const auto [drive, guide] = GetParam();
   const Recording recording = record(drive, 14, 1.0, 1);
