@@ -6,6 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include "harness/csv_reader.hpp"
 #include "harness/full_slam.hpp"
 #include "seif/marginals.hpp"
@@ -28,6 +32,18 @@ peers::SensorNoise noise_of(const seif::Scan& scan) {
   return {std::sqrt(variances(0)), std::sqrt(variances(1))};
 }
 
+#ifdef __SANITIZE_ADDRESS__
+/// What is allocated meanwhile is no leak.
+struct LeaksAllowed {
+  LeaksAllowed() { __lsan_disable(); }
+  ~LeaksAllowed() { __lsan_enable(); }
+  LeaksAllowed(const LeaksAllowed&) = delete;
+  LeaksAllowed& operator=(const LeaksAllowed&) = delete;
+};
+#else
+struct LeaksAllowed {};
+#endif
+
 /// It stays loaded: its libraries keep what they have registered to the end of the program.
 std::unique_ptr<peers::MrptFilter> make_filter(const std::filesystem::path& module,
                                                const peers::MrptSetup& setup) {
@@ -35,6 +51,7 @@ std::unique_ptr<peers::MrptFilter> make_filter(const std::filesystem::path& modu
     throw BadInput(
         "mrpt_ekf: this program was built without MRPT; SEIFBED_PEERS=1 ./seifbed installs it (on Debian "
         "libmrpt-slam-dev) and builds with it");
+  [[maybe_unused]] const LeaksAllowed by_libraries_of_mrpt;
   void* handle = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* make = handle == nullptr ? nullptr : dlsym(handle, "seifbed_make_mrpt_filter");
   if (make == nullptr) throw BadInput(fmt::format("mrpt_ekf: {}", dlerror()));
