@@ -34,6 +34,7 @@ void add_sweep(CommandLine line);
 void add_merge(CommandLine line);
 void add_validate(CommandLine line);
 void add_schema(CommandLine line);
+void add_doctor(CommandLine line);
 void add_estimators(CommandLine line);
 
 /// Prints each problem as a line of stderr, sorted by place.

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   harness::add_sweep(line);
   harness::add_merge(line);
   harness::add_validate(line);
+  harness::add_doctor(line);
   harness::add_schema(line);
   harness::add_estimators(line);
   try {

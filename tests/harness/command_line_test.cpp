@@ -192,8 +192,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
   const TemporaryFolder folder;
-  for (const std::string command : {"run", "replay", "score", "export", "film", "report", "compare", "paper",
-                                    "stress", "sweep", "merge", "validate", "schema", "estimators"}) {
+  for (const std::string command :
+       {"run", "replay", "score", "export", "film", "report", "compare", "paper", "stress", "sweep", "merge",
+        "validate", "doctor", "schema", "estimators"}) {
     const Called help = call(folder, command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;

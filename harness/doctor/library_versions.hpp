@@ -1,0 +1,16 @@
+// What this build of the program was made with.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace harness {
+
+struct LibraryVersion {
+  std::string_view name;
+  std::string_view version;  // "unknown" where the library does not say
+};
+
+std::span<const LibraryVersion> library_versions();
+
+}  // namespace harness
