@@ -8,6 +8,7 @@
 #include "harness/film/film_folder.hpp"
 #include "harness/film/film_options.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/unfinished.hpp"
 
 namespace harness {
 
@@ -30,7 +31,9 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   std::vector<std::string> overrides = arguments.overrides;
   for (const std::string& override : film_overrides(arguments.film)) overrides.push_back(override);
   std::vector<worlds::Problem> problems;
-  std::optional<FilmableFolder> folder = prepare_film(arguments.folder, overrides, registry, problems);
+  const TemporaryFolder spare;
+  const std::filesystem::path log = whole_log(arguments.folder, spare.path());
+  std::optional<FilmableFolder> folder = prepare_film(log, overrides, registry, problems);
   if (!folder) {
     print_problems(problems);
     return 2;
@@ -43,8 +46,8 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path file = file_of(arguments);
   const Clock::time_point begin = Clock::now();
   const FilmResult result = film_folder(
-      *folder, arguments.folder,
-      make_frame_sink(file, {settings.width, settings.height, settings.fps}, is_still), arguments.quiet);
+      *folder, log, make_frame_sink(file, {settings.width, settings.height, settings.fps}, is_still),
+      arguments.quiet);
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   const int code = result.interrupted ? 130 : 0;
   if (result.frames == 0) {

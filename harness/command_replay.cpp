@@ -6,6 +6,7 @@
 #include "harness/prepared_run.hpp"
 #include "harness/replay_settings.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/unfinished.hpp"
 
 namespace harness {
 
@@ -18,14 +19,16 @@ struct ReplayArguments {
 };
 
 int replay(const ReplayArguments& arguments, const seif::Registry& registry) {
-  const worlds::LoadResult settings = load_replay_settings(arguments.folder, arguments.choices, registry);
+  const TemporaryFolder spare;
+  const std::filesystem::path log = whole_log(arguments.folder, spare.path());
+  const worlds::LoadResult settings = load_replay_settings(log, arguments.choices, registry);
   if (!settings.world) {
     print_problems(settings.problems);
     return 2;
   }
-  PreparedRun run = prepare_replay(arguments.folder, *settings.world, registry);
+  PreparedRun run = prepare_replay(log, *settings.world, registry);
   open_folder(run, arguments.output, file_name_of(run.plan.name) + "-replay");
-  write_replayed_world(run.plan.folder, arguments.folder, settings.resolved);
+  write_replayed_world(run.plan.folder, log, settings.resolved);
   return print_result(execute(run), run.plan.folder, arguments.output);
 }
 

@@ -7,6 +7,7 @@
 #include "harness/film/film.hpp"
 #include "harness/interrupt.hpp"
 #include "harness/prepared_run.hpp"
+#include "harness/resume.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/version.hpp"
 
@@ -20,6 +21,7 @@ struct RunArguments {
   std::string seed;                // checked as part of the world; empty: the file's
   std::optional<double> duration;  // [s]
   bool film = false;
+  bool resume = false;  // `world` is the folder of a run
   OutputArguments output;
 };
 
@@ -48,6 +50,14 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   return code;
 }
 
+int resume_run(const RunArguments& arguments, const seif::Registry& registry) {
+  const std::filesystem::path folder = arguments.world;
+  if (is_incomplete(folder))
+    return print_result(resume(folder, registry, arguments.output.quiet || arguments.output.json), folder,
+                        arguments.output);
+  return arguments.output.quiet ? 0 : print_all(fmt::format("{} is complete\n", folder.string()), 0);
+}
+
 }  // namespace
 
 void add_run(CommandLine line) {
@@ -59,6 +69,7 @@ void add_run(CommandLine line) {
       "  seifbed run worlds/courtyard.yaml --seed 7 --duration 60 --out /tmp/seven\n"
       "  seifbed run worlds/courtyard.yaml --set drive.pose_from=odometry --set estimators.ekf={}\n"
       "  seifbed run worlds/courtyard.yaml --film --set film.camera=chase --set film.layers.rays=false\n"
+      "  seifbed run --resume runs/courtyard-1\n"
       "  seifbed run worlds/courtyard.yaml --json | jq .estimators.ekf.nees_pose");
   auto arguments = std::make_shared<RunArguments>();
   command->add_option("WORLD", arguments->world, "World file")->required();
@@ -69,9 +80,18 @@ void add_run(CommandLine line) {
   command->add_flag("--film", arguments->film,
                     "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
                     "drawing between the updates makes their times a little longer");
+  CLI::Option* resume = command->add_flag(
+      "--resume", arguments->resume,
+      "WORLD is the folder of a run that was interrupted, killed or cut off by a full disk: complete it, "
+      "with "
+      "the bytes that it would have had but for times; it is simulated again, so that this takes as long");
   add_output_options(*command, arguments->output, "runs/<world>-<seed>");
+  for (const char* other : {"--set", "--seed", "--duration", "--film", "--out"})
+    resume->excludes(command->get_option(other));
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
-    code = guarded([&] { return run_world(*arguments, registry); });
+    code = guarded([&] {
+      return arguments->resume ? resume_run(*arguments, registry) : run_world(*arguments, registry);
+    });
   });
 }
 

@@ -6,18 +6,21 @@
 
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
+#include "harness/prepared_run.hpp"
 #include "harness/rebuilding.hpp"
 #include "harness/reference.hpp"
+#include "harness/replay_settings.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/score/details.hpp"
 #include "harness/scoreboard.hpp"
+#include "harness/unfinished.hpp"
 
 namespace harness {
 
 namespace {
 
 struct ScoreArguments {
-  std::string folder;
+  std::filesystem::path folder;
   DetailChoices details;
   std::vector<std::string> references;  // estimators that are scored beside those of the run
   bool every_update = false;
@@ -47,8 +50,20 @@ std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const 
   }
 }
 
+/// Of what is whole of a run that was cut off: by a replay, which writes what that run came not to write.
+void make_whole(const std::filesystem::path& log, const std::filesystem::path& to,
+                const seif::Registry& registry) {
+  const worlds::LoadResult settings = load_replay_settings(log, {}, registry);
+  if (!settings.world) throw BadInput(worlds::to_string(settings.problems.front()));
+  PreparedRun replay = prepare_replay(log, *settings.world, registry);
+  write_replayed_world(to, log, settings.resolved);
+  replay.plan.folder = to;
+  replay.plan.quiet = true;
+  execute(replay);
+}
+
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
-  const std::filesystem::path folder = arguments.folder;
+  const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
   std::vector<std::string> names;
   for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
@@ -68,6 +83,16 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   }
   if (arguments.json) return print_all(to_json(summary, details), 0);
   return print_all(scoreboard(summary) + '\n' + details_board(details), 0);
+}
+
+int score_any(ScoreArguments arguments, const seif::Registry& registry) {
+  const TemporaryFolder log;
+  const TemporaryFolder whole;
+  if (is_unfinished(arguments.folder)) {
+    make_whole(whole_log(arguments.folder, log.path()), whole.path(), registry);
+    arguments.folder = whole.path();
+  }
+  return score(arguments, registry);
 }
 
 }  // namespace
@@ -112,7 +137,7 @@ void add_score(CommandLine line) {
       ->excludes(every_update);
   command->add_flag("--json", arguments->json, "Print it as JSON");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
-    code = guarded([&] { return score(*arguments, registry); });
+    code = guarded([&] { return score_any(*arguments, registry); });
   });
 }
 

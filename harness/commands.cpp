@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -12,8 +13,11 @@
 namespace harness {
 
 void print_problems(std::vector<worlds::Problem> problems) {
+  constexpr std::size_t most = 50;  // [-] that anybody reads
   worlds::sort_by_place(problems);
-  for (const worlds::Problem& problem : problems) fmt::print(stderr, "{}\n", worlds::to_string(problem));
+  for (std::size_t i = 0; i < std::min(most, problems.size()); ++i)
+    fmt::print(stderr, "{}\n", worlds::to_string(problems[i]));
+  if (problems.size() > most) fmt::print(stderr, "... and {} problems more\n", problems.size() - most);
 }
 
 int guarded(const std::function<int()>& command) {
@@ -58,8 +62,8 @@ int print_output(const OutputArguments& output, const std::string& json, const s
 }
 
 int print_all(const std::string& text, int exit_code) {
-  fmt::print("{}", text);
-  if (std::fflush(stdout) == 0) return exit_code;
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (is_written && std::fflush(stdout) == 0) return exit_code;
   fmt::print(stderr, "seifbed: cannot write to the standard output\n");
   return 1;
 }

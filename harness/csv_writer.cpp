@@ -29,7 +29,8 @@ OutputFile::OutputFile(std::filesystem::path path)
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      buffer_(std::move(other.buffer_)) {}
+      buffer_(std::move(other.buffer_)),
+      size_(other.size_) {}
 
 OutputFile::~OutputFile() {
   try {
@@ -49,14 +50,27 @@ void OutputFile::flush() {
   while (!rest.empty()) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(errno);
+    if (written < 0) {
+      const int error = errno;
+      keep_whole_lines(std::string_view(buffer_).substr(0, buffer_.size() - rest.size()));
+      fail(error);
+    }
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
+  size_ += static_cast<std::int64_t>(buffer_.size());
   buffer_.clear();
   // Writing to a file that was deleted succeeds, and everything is lost.
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail(errno);
   if (status.st_nlink == 0) fail(ENOENT);
+}
+
+/// `written` is how much of the buffer has reached the file.
+void OutputFile::keep_whole_lines(std::string_view written) {
+  const std::size_t end = written.rfind('\n');
+  size_ += end == std::string_view::npos ? 0 : static_cast<std::int64_t>(end) + 1;
+  buffer_.clear();
+  static_cast<void>(::ftruncate(descriptor_, size_) == 0);  // the first failure is the one to tell of
 }
 
 void OutputFile::sync() {
@@ -83,10 +97,17 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
   std::filesystem::path unfinished = path;
   unfinished += ".part";
   std::filesystem::remove(unfinished);
-  OutputFile file(unfinished);
-  file.append(text);
-  file.close();
-  std::filesystem::rename(unfinished, path);
+  try {
+    OutputFile file(unfinished);
+    file.append(text);
+    file.sync();
+    file.close();
+    std::filesystem::rename(unfinished, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw;
+  }
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {

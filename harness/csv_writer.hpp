@@ -19,7 +19,8 @@ class OutputFile {
 
   void append(std::string_view text);
 
-  /// Hands everything to the operating system.
+  /// Hands everything to the operating system. Where that fails, no part of a line is left in the file, and
+  /// what was not written is lost.
   void flush();
   /// The same, and waits until it is on the disk.
   void sync();
@@ -29,13 +30,16 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(int error) const;
+  void keep_whole_lines(std::string_view written);
 
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::string buffer_;
+  std::int64_t size_ = 0;  // [byte] of what was flushed
 };
 
-/// Writes the whole text, so that nobody ever finds part of the file under its name.
+/// Writes the whole text, so that nobody ever finds part of the file under its name, even after the power
+/// failed.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 /// Reads a file that is there. Throws std::system_error.

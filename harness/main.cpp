@@ -2,20 +2,30 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <string>
 
 #include "harness/commands.hpp"
 #include "harness/registry.hpp"
 #include "harness/version.hpp"
+#include "worlds/limits.hpp"
 
 int main(int argc, char** argv) {
+  // A reader that went away and a file that may not grow are errors that are told, not the end of a run.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   const seif::Registry registry = harness::known_estimators();
 
   CLI::App app("A robot testbed: worlds are simulated, estimators run live in them and are scored.",
                "seifbed");
   app.set_version_flag("--version", fmt::format("seifbed {}", harness::program_version()));
   app.require_subcommand(1);
+  app.add_option_function<double>(
+         "--limits", worlds::raise_limits,
+         "Let files ask for so many times more than usual: landmarks, values, bytes, "
+         "tries; before the command")
+      ->check(CLI::Range(1.0, 100.0));
   app.footer("Each command says more: seifbed run --help");
   int exit_code = 0;
   const harness::CommandLine line{app, registry, exit_code};

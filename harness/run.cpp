@@ -8,6 +8,7 @@
 #include "harness/progress.hpp"
 #include "harness/recorder.hpp"
 #include "harness/run_folder.hpp"
+#include "harness/unfinished.hpp"
 #include "harness/version.hpp"
 
 namespace harness {
@@ -44,6 +45,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   const std::vector<std::string> names = names_of(believers);
   RunResult result;
   believers.dead_reckoning = log.start.mean;
+  write_whole_file(plan.folder / unfinished_mark, "");
   Recorder recorder(plan.folder, log, names);
   std::vector<RunListener*> listeners = {&recorder};
   if (follower != nullptr) listeners.push_back(follower);
@@ -67,6 +69,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
   for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
   write_whole_file(plan.folder / "summary.json", to_json(summary));
+  std::filesystem::remove(plan.folder / unfinished_mark);
   return result;
 }
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/csv_reader.hpp"
+#include "harness/run_folder.hpp"
+#include "harness/unfinished.hpp"
 
 namespace harness {
 
@@ -82,6 +84,7 @@ Summary parse_summary(std::istream& text) {
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
   for (const auto& [name, score] : json.at("estimators").items()) {
+    if (file_name_of(name) != name) throw BadInput(fmt::format("'{}' is no name of an estimator", name));
     summary.score.estimators.emplace_back().name = name;
     const Json& failure = score.at("failure");
     summary.failures.push_back(failure.is_null() ? "" : failure.get<std::string>());
@@ -93,12 +96,19 @@ Summary parse_summary(std::istream& text) {
 
 Summary read_summary(const std::filesystem::path& file) {
   std::ifstream text(file);
+  if (!text && is_unfinished(file.parent_path()))
+    throw BadInput(
+        fmt::format("{0}: was cut off before its end; seifbed run --resume {0} completes it, and "
+                    "seifbed replay {0} makes a run of what there is",
+                    file.parent_path().string()));
   if (!text)
     throw BadInput(fmt::format("{}: cannot be read; a run writes it when it ends, and so does a replay of it",
                                file.string()));
   try {
     return parse_summary(text);
   } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: is no summary of a run: {}", file.string(), error.what()));
+  } catch (const BadInput& error) {
     throw BadInput(fmt::format("{}: is no summary of a run: {}", file.string(), error.what()));
   }
 }

@@ -19,6 +19,7 @@ constexpr double largest_height = 1e3;     // [m]
 constexpr double smallest_radius = 1e-3;   // [m] of a landmark
 constexpr double largest_radius = 100;     // [m] of a landmark
 constexpr double most_landmarks = 1e7;     // [-] of one generator
+constexpr double most_clusters = 1e5;      // [-]
 constexpr double highest_step_rate = 1e4;  // [Hz]
 constexpr double most_tries = 1e6;         // [-]
 constexpr double smallest_film = 64;       // [px]
@@ -194,7 +195,7 @@ std::vector<Fields::Case> generator_cases(Generator& generator, const Eigen::Vec
        }},
       {"clusters", "around points anywhere in the region",
        [&, region_and_count](Fields& fields) {
-         fields.integer("clusters", generator.clusters, between(1, most_landmarks), "how many clusters");
+         fields.integer("clusters", generator.clusters, between(1, most_clusters), "how many clusters");
          fields.number("cluster_sd_m", generator.cluster_sd, more_than(0), "standard deviation of a cluster");
          region_and_count(fields);
        }},

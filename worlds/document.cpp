@@ -15,6 +15,8 @@
 #include <tuple>
 #include <utility>
 
+#include "worlds/limits.hpp"
+
 namespace worlds {
 namespace {
 
@@ -111,8 +113,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   void count(const YAML::Mark& mark, std::size_t more) {
     nodes_ += more;
-    if (nodes_ > max_nodes)
-      throw GivenUp{mark, fmt::format("more than {} values, aliases included", max_nodes)};
+    if (nodes_ > limits().values)
+      throw GivenUp{
+          mark, fmt::format("more than {} values, aliases included; --limits allows more", limits().values)};
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Node::Kind kind) {
@@ -213,6 +216,36 @@ bool check_encoding(std::string_view text, const Source& source, std::vector<Pro
   return true;
 }
 
+constexpr const char* unclosed = "a quote, a list or a map is not closed before the end";
+
+/// yaml-cpp takes a quote that is never closed for one that ends with the text. The sign of a document's end
+/// cannot stand inside of a quote.
+std::string with_end(std::string_view text) {
+  const bool is_line = text.empty() || text.back() == '\n';
+  return std::string(text) + (is_line ? "...\n" : "\n...\n");
+}
+
+/// Whether there is nothing but space and comments.
+bool is_void(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') return false;
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+  }
+  return true;
+}
+
+/// As much of a file as may be parsed, and a byte more where there is more. Nothing if it cannot be read.
+std::optional<std::string> read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(limits().bytes + 1, '\0');
+  if (!stream.read(text.data(), static_cast<std::streamsize>(text.size())) && !stream.eof())
+    return std::nullopt;
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
 }  // namespace
 
 std::string to_string(const Problem& problem) {
@@ -262,14 +295,19 @@ std::optional<Node> parse_document(std::string_view text, const std::string& sou
   const auto name = std::make_shared<const std::string>(source);
   const std::size_t problems_before = problems.size();
   if (!check_encoding(text, name, problems)) return std::nullopt;
+  if (text.size() > limits().bytes) {
+    problems.push_back(
+        {{name, 0, 0}, fmt::format("more than {} bytes; --limits allows more", limits().bytes), ""});
+    return std::nullopt;
+  }
   TreeBuilder builder(name, problems);
   const auto give_up = [&](const YAML::Mark& mark, const std::string& message) {
     problems.push_back({{name, mark.line + 1, mark.column + 1}, message, ""});
   };
   try {
-    std::istringstream stream{std::string(text)};
+    std::istringstream stream{with_end(text)};
     YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) {
+    if (is_void(text) || !parser.HandleNextDocument(builder)) {
       give_up({}, "the document is empty");
     } else if (TreeBuilder rest(name, problems); parser.HandleNextDocument(rest)) {
       give_up({}, "there must be one document, not several (is there a line '---' too many?)");
@@ -277,7 +315,8 @@ std::optional<Node> parse_document(std::string_view text, const std::string& sou
   } catch (const GivenUp& reason) {
     give_up(reason.mark, reason.message);
   } catch (const YAML::Exception& error) {
-    give_up(error.mark, error.msg);
+    const bool is_at_our_end = error.mark.pos >= 0 && static_cast<std::size_t>(error.mark.pos) >= text.size();
+    give_up(error.mark, is_at_our_end ? unclosed : error.msg);
   }
   if (problems.size() > problems_before) return std::nullopt;
   return builder.take_root();
@@ -289,14 +328,14 @@ std::optional<Node> read_document(const std::filesystem::path& file, std::vector
     return std::nullopt;
   };
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) return refuse("there is no such file");
-  if (std::filesystem::is_directory(file, error)) return refuse("this is a directory, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf()))) {
-    return refuse("the file cannot be read");
-  }
-  return parse_document(text.str(), file.string(), problems);
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) return refuse("there is no such file");
+  if (error) return refuse(("the file cannot be read: " + error.message()).c_str());
+  if (std::filesystem::is_directory(status)) return refuse("this is a directory, not a file");
+  if (!std::filesystem::is_regular_file(status)) return refuse("this is no regular file");
+  const std::optional<std::string> text = read_text(file);
+  if (!text) return refuse("the file cannot be read");
+  return parse_document(*text, file.string(), problems);
 }
 
 }  // namespace worlds

@@ -2,7 +2,6 @@
 // in.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -61,16 +60,13 @@ const Node* find_path(const Node& root, std::string_view path);
 /// The deepest that maps and lists may be nested.
 inline constexpr int max_depth = 64;
 
-/// The most values that a document may have, each alias counted with all that it stands for.
-inline constexpr std::size_t max_nodes = 4'000'000;
-
 /// Parses a text that holds one YAML document. Nothing if there is a problem; all that are found are added to
 /// `problems`. Refused are: syntax errors, text that is not UTF-8, an empty text, a second document, keys
-/// that stand twice or are no plain words, tags, nesting beyond max_depth, and more than max_nodes values.
+/// that stand twice or are no plain words, tags, nesting beyond max_depth, and what is beyond limits().
 std::optional<Node> parse_document(std::string_view text, const std::string& source,
                                    std::vector<Problem>& problems);
 
-/// Parses the one file, as parse_document does. A file that cannot be read is a problem too.
+/// Parses the one file, as parse_document does. What cannot be read, or is no regular file, is a problem too.
 std::optional<Node> read_document(const std::filesystem::path& file, std::vector<Problem>& problems);
 
 /// YAML text that parses to the same tree.

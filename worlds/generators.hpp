@@ -55,7 +55,8 @@ struct Placed {
 double wanted_landmarks(const Generator& generator, const World& world);
 
 /// Places landmarks at the end of world.landmarks, clear of all that stands there. Each is tried for at most
-/// max_tries times; the first random one that finds no place ends it (placed < wanted).
+/// max_tries times; the first random one that finds no place ends it (placed < wanted), and so do as many
+/// tries in a row as limits() allow.
 Placed generate(const Generator& generator, World& world, std::mt19937_64& random);
 
 /// The random stream of the generator with this index in the file: std::seed_seq over the two halves of the

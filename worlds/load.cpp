@@ -7,6 +7,7 @@
 #include "worlds/check.hpp"
 #include "worlds/commands.hpp"
 #include "worlds/describe.hpp"
+#include "worlds/limits.hpp"
 #include "worlds/merge.hpp"
 #include "worlds/path.hpp"
 
@@ -52,9 +53,10 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
 }
 
 void generate_landmarks(const Node& document, WorldFile& world_file, std::vector<Problem>& problems) {
-  constexpr double most = 2e7;  // ids are 32 bits wide, and memory has an end
+  const double most = limits().landmarks;
+  constexpr std::size_t enough = 20;  // [-] problems that are worth the time to find them
   World& world = world_file.world;
-  for (std::size_t i = 0; i < world_file.generators.size(); ++i) {
+  for (std::size_t i = 0; i < world_file.generators.size() && problems.size() < enough; ++i) {
     const Generator& generator = world_file.generators[i];
     const std::string path = fmt::format("landmarks.generators.{}", i);
     const double wanted = wanted_landmarks(generator, world);
@@ -64,7 +66,8 @@ void generate_landmarks(const Node& document, WorldFile& world_file, std::vector
       refuse_value(document, path,
                    lacks_path
                        ? "the corridor needs 'points_m', because the drive has no path"
-                       : fmt::format("the generator is to place {} landmarks: at least 1 and at most {}",
+                       : fmt::format("the generator is to place {} landmarks: at least 1 and at most {}; "
+                                     "--limits allows more",
                                      wanted, most),
                    problems);
       continue;

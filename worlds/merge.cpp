@@ -79,6 +79,9 @@ std::optional<Node> read_chain(const fs::path& file, std::vector<fs::path>& chai
   }
   std::optional<Node> base = read_chain(base_file, chain, problems);
   if (!base) return std::nullopt;
+  if (base->kind != Node::Kind::map || node->kind != Node::Kind::map) {
+    return refuse(fmt::format("'extends' names a file that is no map of sections: {}", base_file.string()));
+  }
   merge(*base, *std::move(node));
   return base;
 }

@@ -134,7 +134,9 @@ render::Scene boxed_scene(int width, int height) {
   scene.things.solids.resize(1);
   scene.things.solids[0].size = {4.0, 4.0, 1.0};
   scene.things.solids[0].colour = {0.9F, 0.1F, 0.1F, 1.0F};
-  render::View view{.width = width, .height = height};
+  render::View view;
+  view.width = width;
+  view.height = height;
   view.camera.eye = {0.0, 0.0, 20.0};
   view.camera.up = Eigen::Vector3d::UnitY();
   view.camera.height = 12.0;

@@ -16,7 +16,7 @@ struct FrameFormat {
 
 class FrameSink {
  public:
-  /// A film that is not finished is cut off there: what was written up to then can be seen.
+  /// A film that is not finished is left as NAME.part: what was written up to then can be seen.
   virtual ~FrameSink() = default;
   /// Throws std::runtime_error if it cannot be written.
   virtual void write(const render::Image& frame) = 0;

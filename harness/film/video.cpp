@@ -86,7 +86,7 @@ std::string without_levels(std::string complaint) {
 class VideoSink : public FrameSink {
  public:
   VideoSink(const std::filesystem::path& file, VideoFormat video, const FrameFormat& format)
-      : file_(file), format_(format), encoder_(start(command(file, video, format))) {}
+      : file_(file), format_(format), encoder_(start(command(unfinished(), video, format))) {}
 
   void write(const render::Image& frame) override {
     if (frame.width != format_.width || frame.height != format_.height)
@@ -96,11 +96,17 @@ class VideoSink : public FrameSink {
 
   void finish() override {
     if (!encoder_.finish() || tells_of_an_error(encoder_.complaint())) fail();
+    std::filesystem::rename(unfinished(), file_);
   }
 
  private:
+  /// Where the film is until it is whole.
+  std::filesystem::path unfinished() const { return file_.string() + ".part"; }
+
   [[noreturn]] void fail() {
     static_cast<void>(encoder_.finish());  // so that it has said all
+    std::error_code ignored;
+    std::filesystem::remove(unfinished(), ignored);
     std::string reason = without_levels(encoder_.complaint());
     reason.erase(std::find_if(reason.rbegin(), reason.rend(), [](char c) { return c != '\n'; }).base(),
                  reason.end());

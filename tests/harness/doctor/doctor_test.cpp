@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "../command_call.hpp"
+#include "harness/command_call.hpp"
 #include "harness/doctor/diagnosis.hpp"
 #include "harness/doctor/library_versions.hpp"
 
