@@ -78,8 +78,7 @@ void take_place(const fs::path& again, const fs::path& run) {
 bool is_incomplete(const fs::path& run) {
   if (!fs::exists(run / "world.yaml"))
     throw BadInput(fmt::format("{}: is no folder of a run: it has no world.yaml", run.string()));
-  const fs::path summary = run / "summary.json";
-  return is_unfinished(run) || !fs::exists(summary) || read_summary(summary).interrupted;
+  return is_unfinished(run) || read_summary(run / "summary.json").interrupted;
 }
 
 RunResult resume(const fs::path& run, const seif::Registry& registry, bool quiet) {

@@ -29,7 +29,7 @@ TEST(Paths, TheNameOfAWorldOrLogStaysInTheFolderOfRuns) {
   EXPECT_TRUE(fs::exists(folder / "inner" / "runs" / "_.._.._.._evil-1" / "summary.json"));
   ASSERT_EQ(call(folder, "replay runs/_.._.._.._evil-1 --quiet", in_inner).exit_code, 0);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "inner" / "runs"), {}), 2);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2) << "inner and errors";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Paths, NamesOfEstimatorsCannotLeaveTheRun) {
