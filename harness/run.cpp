@@ -45,7 +45,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   const std::vector<std::string> names = names_of(believers);
   RunResult result;
   believers.dead_reckoning = log.start.mean;
-  write_whole_file(plan.folder / unfinished_mark, "");
+  OutputFile(plan.folder / unfinished_mark).close();
   Recorder recorder(plan.folder, log, names);
   std::vector<RunListener*> listeners = {&recorder};
   if (follower != nullptr) listeners.push_back(follower);
