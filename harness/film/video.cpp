@@ -86,7 +86,7 @@ std::string without_levels(std::string complaint) {
 class VideoSink : public FrameSink {
  public:
   VideoSink(const std::filesystem::path& file, VideoFormat video, const FrameFormat& format)
-      : file_(file), format_(format), encoder_(start(command(unfinished(), video, format))) {}
+      : file_(file), format_(format), encoder_(start(command(fresh(), video, format))) {}
 
   void write(const render::Image& frame) override {
     if (frame.width != format_.width || frame.height != format_.height)
@@ -100,6 +100,13 @@ class VideoSink : public FrameSink {
   }
 
  private:
+  /// Nothing is written through a link that stands there.
+  std::filesystem::path fresh() const {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished(), ignored);
+    return unfinished();
+  }
+
   /// Where the film is until it is whole.
   std::filesystem::path unfinished() const { return file_.string() + ".part"; }
 

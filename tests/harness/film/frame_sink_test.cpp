@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -113,6 +114,9 @@ class OnlyPath {
 class EveryVideo : public testing::TestWithParam<std::string> {
  protected:
   std::filesystem::path file(const std::string& name) const { return folder_ / (name + GetParam()); }
+  std::filesystem::path unfinished(const std::string& name) const {
+    return folder_ / (name + GetParam() + ".part");
+  }
 
   TemporaryFolder folder_;
 };
@@ -153,7 +157,8 @@ TEST_P(EveryVideo, ThatIsNotFinishedPlaysToWhereItEnds) {
     const auto sink = make_frame_sink(file("film"), format, false);
     write_frames(*sink, 20);
   }
-  EXPECT_EQ(frames_in(file("film")), 20);
+  EXPECT_EQ(frames_in(unfinished("film")), 20);
+  EXPECT_FALSE(std::filesystem::exists(file("film")));
 }
 
 TEST_P(EveryVideo, OfAGroupOfProgramsThatIsKilledPlaysToWhereItEnds) {
@@ -169,7 +174,8 @@ TEST_P(EveryVideo, OfAGroupOfProgramsThatIsKilledPlaysToWhereItEnds) {
   ASSERT_EQ(waitpid(writer, &status, 0), writer);
   ASSERT_TRUE(WIFSIGNALED(status));
   ASSERT_GT(wait(&status), 0);
-  EXPECT_EQ(frames_in(file("film")), 20);
+  EXPECT_EQ(frames_in(unfinished("film")), 20);
+  EXPECT_FALSE(std::filesystem::exists(file("film")));
 }
 
 TEST_P(EveryVideo, TakesThePlaceOfAFormerFile) {
@@ -201,9 +207,16 @@ TEST_P(EveryVideo, SaysWhatTheEncoderSaidIfItCannotBeWritten) {
 }
 
 TEST_P(EveryVideo, FailsIfThereIsNoSpaceLeft) {
-  std::filesystem::create_symlink("/dev/full", file("film"));
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit usual{};
+  getrlimit(RLIMIT_FSIZE, &usual);
+  const rlimit narrow{100, usual.rlim_max};  // [byte]
+  setrlimit(RLIMIT_FSIZE, &narrow);
   const std::string message = message_of<std::runtime_error>([&] { write_film(file("film"), 10); });
-  EXPECT_NE(message.find("No space left"), std::string::npos) << message;
+  setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, former);
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path())) << "there is no part of it either";
 }
 
 TEST_P(EveryVideo, RefusesAFrameOfAnotherSize) {
