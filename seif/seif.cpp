@@ -33,7 +33,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (!by_tree_) mean_.before_information(state_);
   add_known(scan);
   solve_window(scan.t);
-  if (options_.first_estimates == 0) relinearise(scan.t);
+  relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
   if (!by_tree_) mean_.after_information(state_);
   state_.update_first_estimates();

@@ -22,10 +22,11 @@ struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
   int theta_max = 16;  // [-] sparsify only when the robot has more links than this
   /// [-] A landmark's first estimate is that after so many scans that saw it (InformationState::
-  /// use_first_estimates). 0: none; observations are linearised again after the update where the mean has
-  /// moved too far.
+  /// use_first_estimates). 0: none.
   int first_estimates = 5;
-  double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
+  /// [sigma] Nonlinearity of an observation above which it is linearised again, where the update has moved
+  /// the mean to.
+  double relinearise_above = 0.1;
   /// [-] An observation is linearised at what was measured where that lies farther from where the landmark is
   /// believed to be than so many times the measured range: the direction to it is useless then.
   /// As on a long ring that closes. 0: never.

@@ -94,14 +94,12 @@ EstimatorType seif() {
       .max = 1000,
       .help =
           "Scans after which a landmark's first estimate is settled, which fixes what the filter cannot "
-          "observe; 0: none, but observations are relinearised [-]."};
+          "observe; 0: none [-]."};
   const OptionSpec relinearise_above{
       .key = "relinearise_above",
       .fallback = defaults.relinearise_above,
       .min = 0.0,
-      .help =
-          "With first_estimates 0: nonlinearity of an observation above which it is linearised again "
-          "[sigma]."};
+      .help = "Nonlinearity of an observation above which it is linearised again after the update [sigma]."};
   const OptionSpec closing_gate{
       .key = "closing_gate",
       .fallback = defaults.closing_gate,
