@@ -1,5 +1,6 @@
 #include "harness/batch.hpp"
 
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -77,6 +78,15 @@ std::size_t Batch::memory_bytes() const {
          bytes_of(scan_poses_) + bytes_of(ids_) + index_.memory_bytes();
 }
 
+void Batch::landmarks(std::span<const seif::LandmarkId> landmarks,
+                      std::vector<seif::LandmarkEstimate>& out) const {
+  if (solved_) {
+    Estimator::landmarks(landmarks, out);
+  } else {
+    guide_->landmarks(landmarks, out);
+  }
+}
+
 std::vector<seif::LandmarkEstimate> Batch::map() const {
   std::vector<seif::LandmarkEstimate> map;
   map.reserve(ids_.size());
@@ -88,10 +98,9 @@ std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
     std::span<const seif::LandmarkId> landmarks) const {
   const Solved& now = solved();
   if (!now.Sigma) return std::nullopt;
-  const seif::Odometry last_pose{0.0, now.optimum.poses.back(),
-                                 now.Sigma->block<3>(slam_.row_of_pose(slam_.pose_count() - 1))};
-  seif::MarginalCovariances marginals{.pose = compose(last_pose, since_last_pose_).covariance,
-                                      .landmarks = {}};
+  Eigen::MatrixXd pose = now.Sigma->block<3>(slam_.row_of_pose(slam_.pose_count() - 1));
+  move_pose(pose, now.optimum.poses.back(), since_last_pose_);
+  seif::MarginalCovariances marginals{.pose = pose, .landmarks = {}};
   marginals.landmarks.reserve(landmarks.size());
   for (const seif::LandmarkId landmark : landmarks) {
     marginals.landmarks.push_back(now.Sigma->block<2>(slam_.row_of_landmark(index_.find(landmark).value())));
@@ -99,21 +108,18 @@ std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
   return marginals;
 }
 
-std::optional<std::vector<seif::JointCovariance>> Batch::joint_covariances(
-    std::span<const seif::LandmarkId> landmarks) const {
+std::optional<std::vector<Eigen::MatrixXd>> Batch::joint_covariances(
+    std::span<const seif::LandmarkIds> groups) const {
   if (!solved_) return std::nullopt;
-  const std::optional<seif::MarginalCovariances> marginals = marginal_covariances(landmarks);
-  const auto columns =
-      seif::columns_of_inverse(solved_->optimum.Omega, slam_.row_of_pose(slam_.pose_count() - 1));
-  if (!marginals || !columns) return std::nullopt;
-  const Eigen::Matrix3d F =
-      predict_pose(solved_->optimum.poses.back(), since_last_pose_).J_wrt_pose;  // of the last stretch
-  std::vector<seif::JointCovariance> joint;
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const int row = slam_.row_of_landmark(index_.find(landmarks[i]).value());
-    joint.push_back(seif::joint_covariance(marginals->pose, F * columns->middleRows<2>(row).transpose(),
-                                           marginals->landmarks[i]));
+  std::vector<std::vector<int>> blocks;
+  for (const seif::LandmarkIds& group : groups) {
+    std::vector<int>& rows = blocks.emplace_back(seif::joint_rows(
+        group, [&](seif::LandmarkId id) { return slam_.row_of_landmark(index_.find(id).value()); }));
+    std::iota(rows.begin(), rows.begin() + 3, slam_.row_of_pose(slam_.pose_count() - 1));
   }
+  auto joint = seif::blocks_of_inverse(solved_->optimum.Omega, blocks);
+  if (!joint) return std::nullopt;
+  for (Eigen::MatrixXd& Sigma : *joint) move_pose(Sigma, solved_->optimum.poses.back(), since_last_pose_);
   return joint;
 }
 

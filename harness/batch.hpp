@@ -29,14 +29,18 @@ class Batch final : public seif::Estimator {
   seif::Counts counts() const override;
   std::size_t memory_bytes() const override;
 
+  /// The guide's, unless it was solved for since the last update: in a look at a few it is not solved for.
+  void landmarks(std::span<const seif::LandmarkId> landmarks,
+                 std::vector<seif::LandmarkEstimate>& out) const override;
+
   /// These two throw std::runtime_error if no optimum is found.
   std::vector<seif::LandmarkEstimate> map() const override;
   std::optional<seif::MarginalCovariances> marginal_covariances(
       std::span<const seif::LandmarkId> landmarks) const override;
 
   /// Nothing unless it was solved for since the last update.
-  std::optional<std::vector<seif::JointCovariance>> joint_covariances(
-      std::span<const seif::LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const seif::LandmarkIds> groups) const override;
 
   /// The optimum's poses at all scans so far. Throws as map() does.
   std::vector<seif::Pose2> trajectory() const;

@@ -30,17 +30,17 @@ struct CompareArguments {
 
 /// Runs in a folder below `keep`, or in one that goes afterwards.
 template <class WriteWorld>
-RunResult execute_in(const std::string& keep, const std::string& name, PreparedRun run,
-                     const WriteWorld& write_world_to) {
+DetailedRun execute_in(const std::string& keep, const std::string& name, PreparedRun run,
+                       const WriteWorld& write_world_to) {
   const std::optional<TemporaryFolder> temporary =
       keep.empty() ? std::make_optional<TemporaryFolder>() : std::nullopt;
   run.plan.folder = create_run_folder(temporary ? temporary->path() : std::filesystem::path(keep), name);
   run.plan.quiet = true;
   write_world_to(run.plan.folder);
-  return execute(run);
+  return execute_in_detail(run);
 }
 
-RunResult run_seed(const CompareArguments& arguments, std::uint64_t seed, const seif::Registry& registry) {
+DetailedRun run_seed(const CompareArguments& arguments, std::uint64_t seed, const seif::Registry& registry) {
   std::vector<std::string> overrides = arguments.choices.overrides;
   overrides.push_back(fmt::format("seed={}", seed));
   const worlds::LoadResult loaded =

@@ -41,8 +41,10 @@ std::string exported(const ExportArguments& arguments) {
     if (!arguments.estimator.empty()) names = {choose_estimator(arguments.estimator, names, {})};
     return trajectories_csv(run, names);
   }
-  if (arguments.format == "g2o")
-    return to_g2o(read_graph(run, choose_estimator(arguments.estimator, names, {})));
+  if (arguments.format == "g2o" || arguments.format == "gtsam") {
+    const RecordedGraph graph = read_graph(run, choose_estimator(arguments.estimator, names, {}));
+    return arguments.format == "g2o" ? to_g2o(graph) : to_gtsam(graph);
+  }
   return read_whole_file(run /
                          (choose_estimator(arguments.estimator, names, {"truth", "odometry"}) + ".tum"));
 }
@@ -65,13 +67,13 @@ void add_export(CommandLine line) {
       "  seifbed export runs/loop-1 --format g2o --estimator ekf --out loop.g2o\n"
       "  seifbed export runs/loop-1 --format tum --estimator truth > truth.tum\n"
       "  seifbed export runs/loop-1 --format csv > trajectories.csv\n"
-      "g2o: poses, landmarks and what was measured, with information matrices, for g2o and GTSAM;\n"
+      "g2o: poses, landmarks and what was measured, with information matrices; gtsam: the same for GTSAM;\n"
       "tum: one trajectory, for evo; csv: all trajectories side by side. docs/log_format.md describes them.");
   auto arguments = std::make_shared<ExportArguments>();
   command->add_option("RUN", arguments->run, "Folder of a run or of a replay")->required();
-  command->add_option("--format", arguments->format, "tum, g2o or csv")
+  command->add_option("--format", arguments->format, "tum, g2o, gtsam or csv")
       ->required()
-      ->check(CLI::IsMember({"tum", "g2o", "csv"}));
+      ->check(CLI::IsMember({"tum", "g2o", "gtsam", "csv"}));
   command->add_option(
       "--estimator", arguments->estimator,
       "Whose poses and landmarks; by default the first, with csv all; with tum also truth and "

@@ -13,7 +13,6 @@
 #include "harness/paper/drawn_run.hpp"
 #include "harness/paper/paper.hpp"
 #include "harness/paper/paper_report.hpp"
-#include "harness/run_folder.hpp"
 
 namespace harness {
 
@@ -21,15 +20,13 @@ namespace {
 
 struct PaperArguments {
   PaperPlan plan;
-  std::string out;  // empty: a new folder in runs/
-  bool json = false;
+  OutputArguments output;
 };
 
 int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   const InterruptGuard guard;
   PaperPlan& plan = arguments.plan;
-  const bool tells = !arguments.json && !plan.quiet;
-  plan.quiet = plan.quiet || arguments.json;
+  plan.quiet = arguments.output.quiet || arguments.output.json;
   const worlds::LoadResult loaded = load_paper_world(plan, registry);
   if (!loaded.world) {
     print_problems(loaded.problems);
@@ -37,8 +34,7 @@ int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   }
   const worlds::World& world = *loaded.world;
   static_cast<void>(choose_baseline("ekf", world.estimators));
-  plan.folder =
-      arguments.out.empty() ? create_run_folder("runs", "paper") : create_empty_folder(arguments.out);
+  plan.folder = make_folder(arguments.output, "paper");
   write_world(plan.folder, world, loaded.resolved);
 
   const Comparison comparison = run_paper(plan, world.name, registry);
@@ -52,10 +48,8 @@ int reproduce(PaperArguments arguments, const seif::Registry& registry) {
     const std::string complaint = draw_figures(plan, registry);
     if (!complaint.empty()) fmt::print(stderr, "{}\n", complaint);
   }
-  std::string text;
-  if (arguments.json) text = json;
-  if (tells) text = fmt::format("{}\nWritten to {}\n", board, plan.folder.string());
-  return print_all(text, InterruptGuard::flag() ? 130 : exit_code(comparison));
+  const int code = InterruptGuard::flag() ? 130 : exit_code(comparison);
+  return print_output(arguments.output, json, board, plan.folder, code);
 }
 
 void add_options(CLI::App& command, PaperArguments& arguments) {
@@ -74,9 +68,7 @@ void add_options(CLI::App& command, PaperArguments& arguments) {
   command.add_flag("--physics", plan.physics, "In Bullet, with contacts and slip, instead of by kinematics");
   command.add_option("--set", plan.overrides, "Set a value of the world file: path.to.key=value")
       ->allow_extra_args(false);
-  command.add_option("--out", arguments.out, "Folder to write to; by default a new one, runs/paper");
-  command.add_flag("--json", arguments.json, "Print paper.json instead of the tables");
-  command.add_flag("--quiet", plan.quiet, "Print errors only");
+  add_output_options(command, arguments.output, "runs/paper", "paper.json instead of the tables");
 }
 
 }  // namespace

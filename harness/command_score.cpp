@@ -19,7 +19,7 @@ namespace {
 struct ScoreArguments {
   std::string folder;
   DetailChoices details;
-  std::string reference;  // an estimator that is scored beside those of the run; empty: none
+  std::vector<std::string> references;  // estimators that are scored beside those of the run
   bool every_update = false;
   bool no_replay = false;
   bool json = false;
@@ -60,8 +60,8 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   if (arguments.every_update) choices.consistency = replayed.path();
   RunDetails details = score_details(folder, names, choices);
   for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
-  if (!arguments.reference.empty()) {
-    const ReferenceScore reference = score_batch(folder, summary, arguments.details, registry);
+  for (const std::string& name : arguments.references) {
+    const ReferenceScore reference = score_reference(name, folder, summary, arguments.details, registry);
     summary.score.estimators.push_back(reference.score);
     summary.failures.emplace_back();
     details.estimators.push_back(reference.details);
@@ -79,7 +79,7 @@ void add_score(CommandLine line) {
       "  seifbed score runs/courtyard-1\n"
       "  seifbed score runs/loop-1 --rpe-m 1,10,100 --away-s 60\n"
       "  seifbed score runs/report2002-1 --every-update --json | jq .estimators.ekf.nees_pose_inside\n"
-      "  seifbed score runs/courtyard-1 --reference batch\n"
+      "  seifbed score runs/courtyard-1 --reference batch,mrpt_ekf\n"
       "Nothing is simulated; innovations and joint covariances are rebuilt by a replay. What the scores mean "
       "is described in docs/scores.md.");
   auto arguments = std::make_shared<ScoreArguments>();
@@ -96,9 +96,13 @@ void add_score(CommandLine line) {
           "How long a landmark was out of sight when seeing it again closes a loop [s]; 20 by default")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--reference", arguments->reference,
-                   "batch: a row with the least-squares optimum of all that was measured")
-      ->check(CLI::IsMember({"batch"}));
+      ->add_option(
+          "--reference", arguments->references,
+          "Rows of others on the same stream: batch, the least-squares optimum of all that was "
+          "measured; mrpt_ekf, MRPT's EKF-SLAM, with its times, where this program was built with it")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(std::vector<std::string>(references.begin(), references.end())));
   CLI::Option* every_update =
       command->add_flag("--every-update", arguments->every_update,
                         "Take NEES and NIS at every update, and not at the scoring times alone");

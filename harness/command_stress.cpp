@@ -8,7 +8,6 @@
 #include "harness/commands.hpp"
 #include "harness/csv_reader.hpp"
 #include "harness/csv_writer.hpp"
-#include "harness/run_folder.hpp"
 #include "harness/stress/stress.hpp"
 #include "harness/stress/stress_plot.hpp"
 #include "harness/stress/stress_report.hpp"
@@ -22,8 +21,7 @@ struct StressArguments {
   std::string pattern = "serpentine";
   std::vector<std::string> estimators = {"seif", "ekf"};
   std::vector<std::string> limits;  // name=landmarks
-  std::string out;                  // empty: a new folder in runs/
-  bool json = false;
+  OutputArguments output;
 };
 
 void read_limits(StressArguments& arguments) {
@@ -47,11 +45,10 @@ int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));
   plan.world.pattern = static_cast<StressPattern>(pattern - stress_pattern_names.begin());
   plan.world.estimators = arguments.estimators;
-  plan.quiet = plan.quiet || arguments.json;
+  plan.quiet = arguments.output.quiet || arguments.output.json;
   std::ranges::sort(plan.landmarks);
   plan.landmarks.erase(std::unique(plan.landmarks.begin(), plan.landmarks.end()), plan.landmarks.end());
-  plan.folder =
-      arguments.out.empty() ? create_run_folder("runs", "stress") : create_empty_folder(arguments.out);
+  plan.folder = make_folder(arguments.output, "stress");
 
   const StressResult result = stress(plan, registry);
   const std::string json = to_json(plan, result);
@@ -60,9 +57,7 @@ int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   if (!complaint.empty()) fmt::print(stderr, "{}\n", complaint);
   const std::string tables = stress_tables(plan, result);
   write_whole_file(plan.folder / "stress.txt", tables);
-  const std::string text =
-      arguments.json ? json : fmt::format("{}\nWritten to {}\n", tables, plan.folder.string());
-  return print_all(text, result.interrupted ? 130 : 0);
+  return print_output(arguments.output, json, tables, plan.folder, result.interrupted ? 130 : 0);
 }
 
 void add_options(CLI::App& command, StressArguments& arguments) {
@@ -96,9 +91,7 @@ void add_options(CLI::App& command, StressArguments& arguments) {
   command.add_option("--seed", plan.world.seed, "Seed of everything that is random")->capture_default_str();
   command.add_option("--set", plan.overrides, "Set a value of the world files: path.to.key=value")
       ->allow_extra_args(false);
-  command.add_option("--out", arguments.out, "Folder to write to; by default a new one, runs/stress");
-  command.add_flag("--json", arguments.json, "Print stress.json instead of the tables");
-  command.add_flag("--quiet", plan.quiet, "Show no progress");
+  add_output_options(command, arguments.output, "runs/stress", "stress.json instead of the tables");
 }
 
 }  // namespace

@@ -45,13 +45,8 @@ bool has_failure(const Aggregate& aggregate) {
 /// Writes the tables and tells of them. The exit code.
 int finish(const SweepFolder& sweep, bool json, bool quiet) {
   const Aggregate aggregate = write_tables(sweep);
-  std::string text;
-  if (json) {
-    text = to_json(aggregate);
-  } else if (!quiet) {
-    text = fmt::format("{}\nWritten to {}\n", aggregate_board(aggregate), sweep.path.string());
-  }
-  return print_all(text, has_failure(aggregate) ? 1 : 0);
+  return print_output({.out = {}, .json = json, .quiet = quiet}, to_json(aggregate),
+                      aggregate_board(aggregate), sweep.path, has_failure(aggregate) ? 1 : 0);
 }
 
 /// Tells of a sweep some of whose runs are still open. The exit code says whether any of `ours` failed.

@@ -28,27 +28,33 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
-void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder) {
+void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder,
+                        const std::string& printed) {
   command.add_option("--out", output.out, "Folder to write to; by default a new one, " + folder);
-  command.add_flag("--json", output.json, "Print summary.json instead of the scoreboard");
+  command.add_flag("--json", output.json, "Print " + printed);
   command.add_flag("--quiet", output.quiet, "Print errors only");
 }
 
+std::filesystem::path make_folder(const OutputArguments& output, const std::string& name) {
+  return output.out.empty() ? create_run_folder("runs", name) : create_empty_folder(output.out);
+}
+
 void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name) {
-  run.plan.folder = output.out.empty() ? create_run_folder("runs", name) : create_empty_folder(output.out);
+  run.plan.folder = make_folder(output, name);
   run.plan.quiet = output.quiet || output.json;
 }
 
 int print_result(const RunResult& result, const std::filesystem::path& folder,
                  const OutputArguments& output) {
   if (!result.error.empty()) fmt::print(stderr, "{}\n", result.error);
-  std::string text;
-  if (output.json) {
-    text = to_json(result.summary);
-  } else if (!output.quiet) {
-    text = fmt::format("{}\nWritten to {}\n", scoreboard(result.summary), folder.string());
-  }
-  return print_all(text, exit_code(result));
+  return print_output(output, to_json(result.summary), scoreboard(result.summary), folder, exit_code(result));
+}
+
+int print_output(const OutputArguments& output, const std::string& json, const std::string& board,
+                 const std::filesystem::path& folder, int exit_code) {
+  if (output.json) return print_all(json, exit_code);
+  if (output.quiet) return exit_code;
+  return print_all(fmt::format("{}\nWritten to {}\n", board, folder.string()), exit_code);
 }
 
 int print_all(const std::string& text, int exit_code) {

@@ -49,14 +49,23 @@ struct OutputArguments {
   bool quiet = false;
 };
 
-/// `folder` is what --out is by default, for the help.
-void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder);
+/// For the help: `folder` is what --out is by default, `printed` what --json prints, and instead of what.
+void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder,
+                        const std::string& printed = "summary.json instead of the scoreboard");
+
+/// The folder that --out asks for, or by default a new one, runs/`name`.
+std::filesystem::path make_folder(const OutputArguments& output, const std::string& name);
 
 /// Makes the folder of a run, by default runs/`name`, and puts it into the plan.
 void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name);
 
 /// Tells how a run ended: its error, and the summary as JSON or as a scoreboard. The exit code.
 int print_result(const RunResult& result, const std::filesystem::path& folder, const OutputArguments& output);
+
+/// Prints what came of it as JSON, or as a board with the folder to which it was written, or nothing, as was
+/// asked. The exit code, as print_all() keeps it.
+int print_output(const OutputArguments& output, const std::string& json, const std::string& board,
+                 const std::filesystem::path& folder, int exit_code);
 
 /// Prints to stdout. The exit code is kept, unless that cannot be written.
 int print_all(const std::string& text, int exit_code);

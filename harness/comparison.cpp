@@ -103,6 +103,33 @@ void compare_errors(std::span<const ComparedRun> runs, const std::string& baseli
   estimator.aligned_ratio_median = median_of(aligned_ratios);
 }
 
+/// What the details of the runs say of an estimator in those that it finished.
+void compare_details(std::span<const ComparedRun> runs, EstimatorComparison& estimator) {
+  const auto mean = [&](const std::function<std::optional<double>(const EstimatorDetails&)>& get) {
+    std::vector<double> values;
+    for (const ComparedRun& run : runs) {
+      if (!run.details || finished(run, estimator.name) == nullptr) continue;
+      const auto details =
+          std::ranges::find(run.details->estimators, estimator.name, &EstimatorDetails::name);
+      if (const std::optional<double> value = get(*details)) values.push_back(*value);
+    }
+    return mean_of(values);
+  };
+  const auto mean_count = [&](int MapCounts::*which) {
+    return value_of(mean([which](const EstimatorDetails& details) {
+      return details.map ? std::optional<double>((*details.map).*which) : std::nullopt;
+    }));
+  };
+  estimator.nees_from_robot =
+      mean([](const EstimatorDetails& details) { return details.rebuilt.nees_landmark_from_robot_final; });
+  estimator.nis_scan = mean([](const EstimatorDetails& details) { return details.rebuilt.scans.nis; });
+  estimator.nis_scan_inside =
+      value_of(mean([](const EstimatorDetails& details) { return details.rebuilt.scans.inside; }));
+  estimator.landmarks_missed = mean_count(&MapCounts::missed);
+  estimator.landmarks_spurious = mean_count(&MapCounts::spurious);
+  estimator.landmarks_duplicate = mean_count(&MapCounts::duplicate);
+}
+
 /// Relocations for each update, of a run that had any.
 std::optional<double> relocation_rate(const ComparedRun& run, const std::string& name) {
   const EstimatorScore* score = finished(run, name);
@@ -143,6 +170,7 @@ void compare_estimators(Comparison& comparison) {
         present(collect(runs, name, [](const EstimatorScore& score) { return score.nees_pose_final; })));
     estimator.nees_landmark = mean_of(
         present(collect(runs, name, [](const EstimatorScore& score) { return score.nees_landmark_final; })));
+    compare_details(runs, estimator);
     compare_costs(runs, estimator);
     comparison.estimators.push_back(std::move(estimator));
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run.hpp"
+#include "harness/detailed_run.hpp"
 #include "harness/statistics.hpp"
 
 namespace harness {
@@ -16,6 +16,7 @@ namespace harness {
 struct ComparedRun {
   std::string name;  // "courtyard-1", or the log's
   RunResult result;
+  std::optional<RunDetails> details = {};
 };
 
 /// An estimator over the runs that it finished. What no run has is nothing.
@@ -31,6 +32,12 @@ struct EstimatorComparison {
   std::optional<double> aligned_ratio_median;    // [-]
   std::optional<Estimate> nees_pose;             // [-] at the end
   std::optional<Estimate> nees_landmark;         // [-] at the end
+  std::optional<Estimate> nees_from_robot;       // [-] of landmarks as seen from the robot, at the end
+  std::optional<Estimate> nis_scan;              // [-] of whole scans
+  std::optional<double> nis_scan_inside;         // [-] share, mean over the runs
+  std::optional<double> landmarks_missed;        // [-] mean over the runs, as are the next two
+  std::optional<double> landmarks_spurious;      // [-]
+  std::optional<double> landmarks_duplicate;     // [-]
   std::optional<Estimate> links;                 // [-] at the end
   std::optional<double> links_max;               // [-] in any run
   std::optional<double> relocations_per_update;  // [-] nothing if there were none

@@ -34,6 +34,12 @@ Json estimator_json(const EstimatorComparison& estimator) {
   json["landmark_rmse_aligned_ratio_median"] = number(estimator.aligned_ratio_median);
   json["nees_pose_final"] = estimate(estimator.nees_pose);
   json["nees_landmark_final"] = estimate(estimator.nees_landmark);
+  json["nees_landmark_from_robot_final"] = estimate(estimator.nees_from_robot);
+  json["nis_scan"] = estimate(estimator.nis_scan);
+  json["nis_scan_inside"] = number(estimator.nis_scan_inside);
+  json["landmarks_missed"] = number(estimator.landmarks_missed);
+  json["landmarks_spurious"] = number(estimator.landmarks_spurious);
+  json["landmarks_duplicate"] = number(estimator.landmarks_duplicate);
   json["links"] = estimate(estimator.links);
   json["links_max"] = number(estimator.links_max);
   json["relocations_per_update"] = number(estimator.relocations_per_update);
@@ -46,7 +52,7 @@ Json run_json(const ComparedRun& run) {
   const std::string& error = run.result.error;
   return {{"name", run.name},
           {"error", error.empty() ? Json(nullptr) : Json(error)},
-          {"summary", Json::parse(to_json(run.result.summary))}};
+          {"summary", Json::parse(to_json(DetailedRun{run.result, run.details}))}};
 }
 
 std::string value_cell(const std::optional<Estimate>& value, int decimals) {
@@ -72,12 +78,26 @@ TextRow accuracy_row(const EstimatorComparison& estimator) {
           number_cell(estimator.aligned_ratio_median, 3)};
 }
 
-TextRow cost_row(const EstimatorComparison& estimator) {
+TextRow consistency_row(const EstimatorComparison& estimator) {
+  std::optional<double> inside = estimator.nis_scan_inside;
+  if (inside) *inside *= 100.0;
   return {estimator.name,
           value_cell(estimator.nees_pose, 2),
           interval_cell(estimator.nees_pose, 2),
           value_cell(estimator.nees_landmark, 2),
           interval_cell(estimator.nees_landmark, 2),
+          value_cell(estimator.nees_from_robot, 2),
+          interval_cell(estimator.nees_from_robot, 2),
+          value_cell(estimator.nis_scan, 2),
+          interval_cell(estimator.nis_scan, 2),
+          number_cell(inside, 0)};
+}
+
+TextRow cost_row(const EstimatorComparison& estimator) {
+  return {estimator.name,
+          number_cell(estimator.landmarks_missed, 1),
+          number_cell(estimator.landmarks_spurious, 1),
+          number_cell(estimator.landmarks_duplicate, 1),
           value_cell(estimator.links, 0),
           number_cell(estimator.links_max, 0),
           number_cell(estimator.relocations_per_update, 3),
@@ -124,15 +144,18 @@ std::string comparison_board(const Comparison& comparison) {
   const std::string over = "over " + comparison.baseline;
   std::vector<TextRow> accuracy = {
       {"map error", "runs", "failed", "MSE [m^2]", "95 %", over, "95 %", "aligned [m]", over, "median"}};
-  std::vector<TextRow> cost = {{"at the end", "NEES pose", "95 %", "NEES map", "95 %", "links", "most",
+  std::vector<TextRow> consistency = {{"at the end", "NEES pose", "95 %", "NEES map", "95 %", "from robot",
+                                       "95 %", "NIS of scans", "95 %", "inside [%]"}};
+  std::vector<TextRow> cost = {{"map and cost", "missed", "spurious", "duplicate", "links", "most",
                                 "relocations", "p50 [us]", "p99 [us]"}};
   for (const EstimatorComparison& estimator : comparison.estimators) {
     accuracy.push_back(accuracy_row(estimator));
+    consistency.push_back(consistency_row(estimator));
     cost.push_back(cost_row(estimator));
   }
-  std::string text =
-      fmt::format("{}, {} runs{}\n\n{}\n{}", comparison.name, comparison.runs.size(),
-                  comparison.interrupted ? " (interrupted)" : "", text_table(accuracy), text_table(cost));
+  std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
+                                 comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
+                                 text_table(consistency), text_table(cost));
   const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;
 }

@@ -40,6 +40,10 @@ struct FullSlamOptimum {
 /// Two motions in a row as one, its covariance to first order.
 seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second);
 
+/// Makes the covariance of a pose and of landmarks, [x y theta m1x m1y ...], that after a motion from this
+/// pose, to first order. (3+2k x 3+2k)
+void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odometry& motion);
+
 /// Whether a motion is so certain that what was seen after it may count as seen from where it began.
 bool is_certain(const seif::Odometry& motion);
 

@@ -16,6 +16,7 @@ struct Entry {
 
 // Seven colours are too few: kin of a filter have a dark tint of its colour. Yellow is too pale for white
 // paper.
+constexpr Rgb dark_blue = 0x003F7F;
 constexpr Rgb dark_green = 0x005F45;
 constexpr Rgb dark_vermilion = 0x7F3800;
 constexpr Rgb dark_purple = 0x7B2D5B;
@@ -23,8 +24,9 @@ constexpr Rgb dark_yellow = 0x8A7F00;
 constexpr Rgb brown = 0x8C5A2B;
 constexpr Rgb dark_sky_blue = 0x2F6F95;
 
-constexpr std::array<Entry, 9> own = {{
+constexpr std::array<Entry, 10> own = {{
     {"ekf", palette::blue},
+    {"mrpt_ekf", dark_blue},
     {"eif", palette::sky_blue},
     {"seif", palette::green},
     {"seif_gauge_free", dark_green},

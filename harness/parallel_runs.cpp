@@ -14,13 +14,13 @@ namespace harness {
 
 namespace {
 
-RunResult execute_guarded(const PlannedRun& planned) {
+DetailedRun execute_guarded(const PlannedRun& planned) {
   try {
     return planned.run();
   } catch (const BadInput& error) {
-    return {.summary = {}, .error = error.what(), .bad_input = true};
+    return {.result = {.summary = {}, .error = error.what(), .bad_input = true}};
   } catch (const std::exception& error) {
-    return {.summary = {}, .error = error.what(), .bad_input = false};
+    return {.result = {.summary = {}, .error = error.what(), .bad_input = false}};
   }
 }
 
@@ -29,15 +29,15 @@ RunResult execute_guarded(const PlannedRun& planned) {
 FinishedRuns execute_all(const std::vector<PlannedRun>& planned, int jobs, bool quiet) {
   const InterruptGuard guard;
   const std::atomic<bool>& stop = InterruptGuard::flag();
-  std::vector<std::optional<RunResult>> results(planned.size());
+  std::vector<std::optional<DetailedRun>> results(planned.size());
   std::atomic<std::size_t> next = 0;
   std::size_t done = 0;
   std::mutex done_mutex;
   CountProgress progress(quiet, planned.size(), "runs");
   const auto work = [&] {
     for (std::size_t i = next++; i < planned.size() && !stop; i = next++) {
-      RunResult result = execute_guarded(planned[i]);
-      if (!result.summary.interrupted) results[i] = std::move(result);
+      DetailedRun run = execute_guarded(planned[i]);
+      if (!run.result.summary.interrupted) results[i] = std::move(run);
       const std::lock_guard lock(done_mutex);
       progress.show(++done);
     }
@@ -50,7 +50,9 @@ FinishedRuns execute_all(const std::vector<PlannedRun>& planned, int jobs, bool 
   FinishedRuns finished;
   finished.interrupted = stop;
   for (std::size_t i = 0; i < planned.size(); ++i) {
-    if (results[i]) finished.runs.push_back({planned[i].name, std::move(*results[i])});
+    if (results[i])
+      finished.runs.push_back(
+          {planned[i].name, std::move(results[i]->result), std::move(results[i]->details)});
   }
   return finished;
 }

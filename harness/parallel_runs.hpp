@@ -13,7 +13,7 @@ namespace harness {
 /// A run that is still to be done. What it throws becomes the error of its result.
 struct PlannedRun {
   std::string name;
-  std::function<RunResult()> run;
+  std::function<DetailedRun()> run;
 };
 
 struct FinishedRuns {

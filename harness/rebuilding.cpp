@@ -21,12 +21,41 @@ std::optional<double> mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The covariance S of an innovation, J P J' + Q.
-Eigen::Matrix2d innovation_covariance(const seif::PredictedObservation& predicted,
-                                      const seif::JointCovariance& P, const Eigen::Matrix2d& Q) {
-  Eigen::Matrix<double, 2, 5> J;
-  J << predicted.J_wrt_pose, predicted.J_wrt_landmark;
-  return J * P * J.transpose() + Q;
+/// What a filter did not expect of the k observations of a scan whose landmarks are in its map.
+struct Innovations {
+  Eigen::VectorXd nu;  // (2k x 1)
+  Eigen::MatrixXd S;   // (2k x 2k) H P H' + Q
+};
+
+/// Nothing if there are none, or the filter does not tell its covariance P of the pose and these landmarks.
+std::optional<Innovations> innovations_of(const LiveEstimator& estimator, const seif::Scan& scan,
+                                          const seif::Pose2& T_robot_sensor) {
+  seif::LandmarkIds seen;
+  for (const seif::Observation& observation : scan.observations) seen.push_back(observation.landmark);
+  std::vector<seif::LandmarkEstimate> known;
+  estimator.filter->landmarks(seen, known);
+  seen.clear();
+  for (const seif::LandmarkEstimate& landmark : known) seen.push_back(landmark.landmark);
+  if (known.empty()) return std::nullopt;
+  const auto P = estimator.filter->joint_covariances({&seen, 1});
+  if (!P) return std::nullopt;
+  const auto size = 2 * static_cast<Eigen::Index>(known.size());
+  Innovations innovations{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, 3 + size);
+  const double factor = estimator.observation_sd_factor * estimator.observation_sd_factor;
+  std::size_t i = 0;  // of the known ones: they come in the order of the observations
+  for (const seif::Observation& observation : scan.observations) {
+    if (i == known.size() || known[i].landmark != observation.landmark) continue;
+    const seif::PredictedObservation predicted =
+        predict_observation(estimator.filter->pose(), T_robot_sensor, known[i].mean);
+    const auto row = 2 * static_cast<Eigen::Index>(i++);
+    innovations.nu.segment<2>(row) = innovation(observation, predicted.z);
+    innovations.S.block<2, 2>(row, row) = factor * observation.covariance;
+    H.block<2, 3>(row, 0) = predicted.J_wrt_pose;
+    H.block<2, 2>(row, 3 + row) = predicted.J_wrt_landmark;
+  }
+  innovations.S += H * P->front() * H.transpose();
+  return innovations;
 }
 
 }  // namespace
@@ -53,25 +82,14 @@ void RebuiltConsistency::scan(const ScanEvent& event) {
 
 void RebuiltConsistency::add_innovations(const LiveEstimator& estimator, const seif::Scan& scan,
                                          Gathered& gathered) const {
-  std::vector<seif::LandmarkId> ids;
-  for (const seif::Observation& observation : scan.observations) ids.push_back(observation.landmark);
-  std::vector<seif::LandmarkEstimate> known;
-  estimator.filter->landmarks(ids, known);
-  ids.clear();
-  for (const seif::LandmarkEstimate& landmark : known) ids.push_back(landmark.landmark);
-  const auto joint = estimator.filter->joint_covariances(ids);
-  if (!joint) return;
-  const double factor = estimator.observation_sd_factor * estimator.observation_sd_factor;
-  std::size_t i = 0;  // of the known ones: they come in the order of the observations
-  for (const seif::Observation& observation : scan.observations) {
-    if (i == known.size() || known[i].landmark != observation.landmark) continue;
-    const seif::PredictedObservation predicted =
-        predict_observation(estimator.filter->pose(), log_.T_robot_sensor, known[i].mean);
-    const Eigen::Matrix2d S = innovation_covariance(predicted, (*joint)[i], factor * observation.covariance);
-    const auto value = nees(Eigen::Vector2d(innovation(observation, predicted.z)), S);
+  const std::optional<Innovations> innovations = innovations_of(estimator, scan, log_.T_robot_sensor);
+  if (!innovations) return;
+  const auto& [nu, S] = *innovations;
+  for (Eigen::Index row = 0; row < nu.size(); row += 2) {
+    const auto value = nees(Eigen::Vector2d(nu.segment<2>(row)), Eigen::Matrix2d(S.block<2, 2>(row, row)));
     if (value) gathered.nis.push_back(*value);
-    ++i;
   }
+  if (const auto value = nees(nu, S)) gathered.scans.push_back({*value, static_cast<int>(nu.size())});
 }
 
 std::vector<std::pair<seif::LandmarkId, PointPair>> RebuiltConsistency::sample_of(
@@ -94,9 +112,9 @@ void RebuiltConsistency::consistency(std::size_t index, const ConsistencyRecord&
   if (!true_pose_ || !log_.landmarks) return;
   const LiveEstimator& estimator = believers_.estimators[index];
   const auto sample = sample_of(estimator);
-  std::vector<seif::LandmarkId> ids;
-  for (const auto& [id, pair] : sample) ids.push_back(id);
-  const auto joint = estimator.filter->joint_covariances(ids);
+  std::vector<seif::LandmarkIds> each;
+  for (const auto& [id, pair] : sample) each.push_back({id});
+  const auto joint = estimator.filter->joint_covariances(each);
   if (!joint) return;
   const PosePair pose{record.t, estimator.filter->pose(), *true_pose_};
   for (std::size_t i = 0; i < sample.size(); ++i) {
@@ -113,6 +131,7 @@ std::vector<RebuiltScore> RebuiltConsistency::scores() const {
     scores.push_back({.nis = mean(gathered.nis),
                       .observations = gathered.nis.size(),
                       .nis_inside = share_inside(gathered.nis, band),
+                      .scans = score_scans(gathered.scans),
                       .nees_landmark_from_robot = mean(gathered.means),
                       .nees_landmark_from_robot_final = mean(gathered.last),
                       .landmarks_from_robot_inside = share_inside(gathered.last, band)});

@@ -34,9 +34,10 @@ class RebuiltConsistency final : public RunListener {
 
  private:
   struct Gathered {
-    std::vector<double> nis;    // [-] of each observation
-    std::vector<double> means;  // [-] from the robot, of each scoring time
-    std::vector<double> last;   // [-] from the robot, of each landmark at the last one
+    std::vector<double> nis;     // [-] of each observation
+    std::vector<ScanNis> scans;  // of each scan
+    std::vector<double> means;   // [-] from the robot, of each scoring time
+    std::vector<double> last;    // [-] from the robot, of each landmark at the last one
   };
 
   void note_truth(const std::optional<TruePose>& truth);

@@ -1,7 +1,10 @@
-// The optimum of a recorded run as a row of its score table.
+// Others that a recorded run is measured against, as rows of its score table.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "harness/score/details.hpp"
 #include "harness/score_folder.hpp"
@@ -11,13 +14,18 @@
 namespace harness {
 
 struct ReferenceScore {
-  EstimatorScore score;  // under the name of the reference; without costs, which are those of no filter
+  EstimatorScore score;  // under the name of the reference
   EstimatorDetails details;
 };
 
-/// Replays a run for `batch`, solves once at the end, and scores map, belief and trajectory of the optimum.
-/// Throws BadInput if the run has an estimator of that name, and std::runtime_error if no optimum is found.
-ReferenceScore score_batch(const std::filesystem::path& run, const Summary& summary,
-                           const DetailChoices& choices, const seif::Registry& registry);
+/// `batch`, the optimum, and `mrpt_ekf`, a peer.
+inline constexpr std::array<std::string_view, 2> references = {"batch", "mrpt_ekf"};
+
+/// Replays a run for a reference and scores it. `batch` is solved once at the end; map, belief and trajectory
+/// are the optimum's, and costs it has none. Throws BadInput if the run has an estimator of that name or the
+/// reference cannot be made, and std::runtime_error if no optimum is found.
+ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
+                               const Summary& summary, const DetailChoices& choices,
+                               const seif::Registry& registry);
 
 }  // namespace harness

@@ -1,12 +1,14 @@
 #include "harness/registry.hpp"
 
 #include "harness/batch.hpp"
+#include "harness/mrpt_ekf.hpp"
 
 namespace harness {
 
 seif::Registry known_estimators() {
   seif::Registry registry = seif::standard_estimators();
   registry.add(batch_estimator(registry));
+  registry.add(mrpt_ekf_estimator());
   // An estimator of your own joins here: registry.add(...) makes it known to world files and to all commands.
   return registry;
 }

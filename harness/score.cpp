@@ -118,6 +118,10 @@ std::optional<double> nees(const Eigen::Vector2d& error, const Eigen::Matrix2d& 
   return nees_per_dof(error, covariance);
 }
 
+std::optional<double> nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance) {
+  return nees_per_dof(error, covariance);
+}
+
 Eigen::Vector3d pose_error(const seif::Pose2& est_pose, const seif::Pose2& true_pose) {
   return {est_pose.x - true_pose.x, est_pose.y - true_pose.y,
           seif::wrap_angle(est_pose.theta - true_pose.theta)};

@@ -60,6 +60,7 @@ std::optional<double> rmse_from_robot(std::span<const PointPair> points, const P
 /// right. Nothing if the covariance is not positive definite.
 std::optional<double> nees(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance);
 std::optional<double> nees(const Eigen::Vector2d& error, const Eigen::Matrix2d& covariance);
+std::optional<double> nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance);
 
 /// Estimate minus truth; the heading's in (-pi, pi]. (3 x 1) [m, m, rad]
 Eigen::Vector3d pose_error(const seif::Pose2& est_pose, const seif::Pose2& true_pose);

@@ -38,6 +38,13 @@ test_packages=(
   "chromium-headless-shell opens reports as people see them"
 )
 
+# Other people's filters to measure ours against; with SEIFBED_PEERS=1 they are installed, and where they are they are
+# built with the rest.
+peer_packages=(
+  "libmrpt-slam-dev      MRPT's EKF-SLAM, as mrpt_ekf"
+)
+[[ ! ${SEIFBED_PEERS-} ]] || packages+=("${peer_packages[@]}")
+
 say() { printf 'set-up: %s\n' "$*" >&2; }
 
 die() {
@@ -82,12 +89,15 @@ install_packages() {
     die "apt-get could not install: ${missing[*]%% *}"
 }
 
+# Whether a build has not found the peers that it was told to have.
+lacks_peers() { [[ ${SEIFBED_PEERS-} ]] && grep -qxF "mrpt-slam_DIR:PATH=mrpt-slam_DIR-NOTFOUND" "$1/CMakeCache.txt"; }
+
 # Configures unless the folder holds a build of this very tree by these very presets: a tree that was copied or moved
 # with its build folder would else go on building the old one.
 configure() {
   local preset=$1 folder=$2
   if [[ $folder/build.ninja -nt $root/CMakePresets.json ]] &&
-    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt" && ! lacks_peers "$folder"; then
     return 0
   fi
   say "configuring $folder"

@@ -127,15 +127,15 @@ std::optional<MarginalCovariances> Eif::marginal_covariances(std::span<const Lan
   return marginals;
 }
 
-std::optional<std::vector<JointCovariance>> Eif::joint_covariances(
-    std::span<const LandmarkId> landmarks) const {
+std::optional<std::vector<Eigen::MatrixXd>> Eif::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
   const std::optional<Eigen::MatrixXd> Sigma = this->Sigma();
   if (!Sigma) return std::nullopt;
-  std::vector<JointCovariance> joint;
-  for (const LandmarkId landmark : landmarks) {
-    const int row = row_of(index_.find(landmark).value());
-    joint.push_back(joint_covariance(Sigma->topLeftCorner<3, 3>(), Sigma->block<3, 2>(0, row),
-                                     Sigma->block<2, 2>(row, row)));
+  std::vector<Eigen::MatrixXd> joint;
+  for (const LandmarkIds& group : groups) {
+    const std::vector<int> rows =
+        joint_rows(group, [&](LandmarkId id) { return row_of(index_.find(id).value()); });
+    joint.emplace_back((*Sigma)(rows, rows));
   }
   return joint;
 }

@@ -28,8 +28,8 @@ class Eif final : public Estimator {
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
-  std::optional<std::vector<JointCovariance>> joint_covariances(
-      std::span<const LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> groups) const override;
 
   /// The whole belief, for oracles: (3+2N x 3+2N) and (3+2N x 1), landmarks in the order in which they
   /// joined.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "seif/couplings.hpp"
+#include "seif/marginals.hpp"
 #include "seif/models.hpp"
 
 namespace seif {
@@ -184,17 +185,19 @@ std::optional<MarginalCovariances> Ekf::marginal_covariances(std::span<const Lan
   return marginals;
 }
 
-std::optional<std::vector<JointCovariance>> Ekf::joint_covariances(
-    std::span<const LandmarkId> landmarks) const {
-  std::vector<JointCovariance> joint;
-  joint.reserve(landmarks.size());
-  for (const LandmarkId landmark : landmarks) {
-    const int row = row_of(index_.find(landmark).value());
-    JointCovariance lower = JointCovariance::Zero();
-    lower.topLeftCorner<3, 3>() = Sigma_.topLeftCorner<3, 3>();
-    lower.bottomLeftCorner<2, 3>() = Sigma_.block<2, 3>(row, 0);
-    lower.bottomRightCorner<2, 2>() = Sigma_.block<2, 2>(row, row);
-    joint.emplace_back(lower.selfadjointView<Eigen::Lower>());
+std::optional<std::vector<Eigen::MatrixXd>> Ekf::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
+  std::vector<Eigen::MatrixXd> joint;
+  joint.reserve(groups.size());
+  for (const LandmarkIds& group : groups) {
+    const std::vector<int> rows =
+        joint_rows(group, [&](LandmarkId id) { return row_of(index_.find(id).value()); });
+    const auto size = static_cast<Eigen::Index>(rows.size());
+    joint.push_back(Eigen::MatrixXd::NullaryExpr(size, size, [&](Eigen::Index i, Eigen::Index j) {
+      const auto [low, high] =
+          std::minmax(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+      return Sigma_(high, low);
+    }));
   }
   return joint;
 }

@@ -30,8 +30,8 @@ class Ekf final : public Estimator {
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
-  std::optional<std::vector<JointCovariance>> joint_covariances(
-      std::span<const LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> groups) const override;
 
   /// The whole belief, for oracles: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
   Eigen::VectorXd mu() const { return mu_.head(size()); }

@@ -89,9 +89,9 @@ std::optional<MarginalCovariances> Eseif::marginal_covariances(std::span<const L
   return marginals_of(state_, landmarks);
 }
 
-std::optional<std::vector<JointCovariance>> Eseif::joint_covariances(
-    std::span<const LandmarkId> landmarks) const {
-  return joint_covariances_of(state_, landmarks);
+std::optional<std::vector<Eigen::MatrixXd>> Eseif::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
+  return joint_covariances_of(state_, groups);
 }
 
 }  // namespace seif

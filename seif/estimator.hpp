@@ -60,8 +60,8 @@ struct MarginalCovariances {
   std::vector<Eigen::Matrix2d> landmarks;          // (2 x 2) each [m^2]
 };
 
-/// The covariance of the pose together with one landmark. (5 x 5) of [x y theta m_x m_y] [m, rad]
-using JointCovariance = Eigen::Matrix<double, 5, 5>;
+/// Landmarks whose covariance with each other is asked for.
+using LandmarkIds = std::vector<LandmarkId>;
 
 /// What a filter keeps of how things go together.
 enum class BeliefMatrix { none, information, covariance };
@@ -130,10 +130,10 @@ class Estimator {
   virtual std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const = 0;
 
-  /// The same of the pose together with each of `landmarks`, in that order. By default the filter does not
-  /// tell.
-  virtual std::optional<std::vector<JointCovariance>> joint_covariances(
-      std::span<const LandmarkId> /*landmarks*/) const {
+  /// The same of the pose together with the landmarks of each group, [x y theta m1x m1y m2x ...] in the order
+  /// of the group, in which one may stand twice. (3+2k x 3+2k) each. By default the filter does not tell.
+  virtual std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> /*groups*/) const {
     return std::nullopt;
   }
 };

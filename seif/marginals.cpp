@@ -15,8 +15,7 @@ using Factor = Eigen::SimplicialLLT<Sparse, Eigen::Lower>;  // P A P' = L L'
 /// elimination tree is as high as it is long.
 constexpr std::size_t few = 64;
 
-template <int size>
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, size, Eigen::RowMajor>;
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
 /// column j:
@@ -58,42 +57,38 @@ void invert_on_pattern(Sparse& L) {
   }
 }
 
-/// The block of A^-1 on the diagonal whose first row is `row`: W' W with W = L^-1 P E, E being these columns
-/// of the identity. Of the rows of W only those are not zero that lie on the way from the first of its own up
-/// the elimination tree; its other own rows do too, since A links them all. `W` (n x size) is zero, and is
-/// again afterwards.
-template <int size>
-Eigen::Matrix<double, size, size> block_of_inverse(const Factor& factor, int row, Rows<size>& W) {
-  const Sparse& L = factor.matrixL().nestedExpression();
-  const auto own = factor.permutationP().indices().segment<size>(row);
-  for (int i = 0; i < size; ++i) W(own(i), i) = 1.0;
-  Eigen::Matrix<double, size, size> block = Eigen::Matrix<double, size, size>::Zero();
-  for (int j = own.minCoeff(); j >= 0;) {
-    Sparse::InnerIterator entry(L, j);  // the diagonal comes first
-    const Eigen::Matrix<double, 1, size> w = W.row(j) / entry.value();
-    W.row(j).setZero();
-    block += w.transpose() * w;
-    ++entry;
-    j = entry ? static_cast<int>(entry.row()) : -1;  // the parent
-    for (; entry; ++entry) W.row(entry.row()) -= entry.value() * w;
-  }
-  return block;
+/// The next column on the way up the elimination tree; -1 at its root.
+int parent(const Sparse& L, int column) {
+  const int below = L.outerIndexPtr()[column] + 1;  // the diagonal comes first
+  return below < L.outerIndexPtr()[column + 1] ? L.innerIndexPtr()[below] : -1;
 }
 
-/// For a few landmarks of a large map: at the cost of the factor and one way up the elimination tree for
-/// each.
-std::optional<MarginalCovariances> marginals_of_few(const InformationState& state,
-                                                    std::span<const LandmarkId> landmarks) {
-  const Factor factor(state.full_Omega());
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  Rows<3> W_pose = Rows<3>::Zero(factor.rows(), 3);
-  Rows<2> W = Rows<2>::Zero(factor.rows(), 2);
-  MarginalCovariances marginals{.pose = block_of_inverse<3>(factor, 0, W_pose), .landmarks = {}};
-  for (const LandmarkId landmark : landmarks) {
-    const int row = InformationState::row_of(state.find(landmark).value());
-    marginals.landmarks.push_back(block_of_inverse<2>(factor, row, W));
+/// These rows and columns of A^-1: W' W with W = L^-1 P E, E being these columns of the identity. Of the rows
+/// of W only those are not zero, and kept, that lie on the ways from these up the elimination tree. `place`
+/// (n x 1) is -1, and is again afterwards.
+Eigen::MatrixXd block_of_inverse(const Factor& factor, std::span<const int> rows, Eigen::VectorXi& place) {
+  const Sparse& L = factor.matrixL().nestedExpression();
+  const auto& permuted = factor.permutationP().indices();
+  std::vector<int> ways;
+  for (const int row : rows) {
+    for (int j = permuted(row); j >= 0 && place(j) < 0; j = parent(L, j)) {
+      place(j) = 0;
+      ways.push_back(j);
+    }
   }
-  return marginals;
+  std::ranges::sort(ways);
+  for (std::size_t k = 0; k < ways.size(); ++k) place(ways[k]) = static_cast<int>(k);
+  Rows W = Rows::Zero(static_cast<Eigen::Index>(ways.size()), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t c = 0; c < rows.size(); ++c)
+    W(place(permuted(rows[c])), static_cast<Eigen::Index>(c)) = 1.0;
+  for (const int j : ways) {
+    Sparse::InnerIterator entry(L, j);
+    auto w = W.row(place(j));
+    w /= entry.value();
+    for (++entry; entry; ++entry) W.row(place(entry.row())) -= entry.value() * w;
+  }
+  for (const int j : ways) place(j) = -1;
+  return W.transpose() * W;
 }
 
 }  // namespace
@@ -118,19 +113,15 @@ double DiagonalBlocksOfInverse::operator()(int i, int j) const {
   return Z_.valuePtr()[found - rows];
 }
 
-std::optional<Eigen::Matrix<double, Eigen::Dynamic, 3>> columns_of_inverse(const Sparse& A, int first) {
+std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
+                                                              std::span<const std::vector<int>> blocks) {
   const Factor factor(A);
   if (factor.info() != Eigen::Success) return std::nullopt;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> E = Eigen::MatrixXd::Zero(A.rows(), 3);
-  E.middleRows<3>(first).setIdentity();
-  return factor.solve(E);
-}
-
-JointCovariance joint_covariance(const Eigen::Matrix3d& pose, const Eigen::Matrix<double, 3, 2>& cross,
-                                 const Eigen::Matrix2d& landmark) {
-  JointCovariance joint;
-  joint << pose, cross, cross.transpose(), landmark;
-  return joint;
+  Eigen::VectorXi place = Eigen::VectorXi::Constant(A.rows(), -1);
+  std::vector<Eigen::MatrixXd> inverse;
+  inverse.reserve(blocks.size());
+  for (const std::vector<int>& rows : blocks) inverse.push_back(block_of_inverse(factor, rows, place));
+  return inverse;
 }
 
 std::vector<LandmarkEstimate> map_of(const InformationState& state) {
@@ -155,30 +146,31 @@ void landmarks_of(const InformationState& state, std::span<const LandmarkId> lan
 
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
+  const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
+  MarginalCovariances marginals;
   if (landmarks.size() <= few && landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
-    return marginals_of_few(state, landmarks);
+    std::vector<std::vector<int>> blocks = {{0, 1, 2}};
+    for (const LandmarkId landmark : landmarks) blocks.push_back({row_of(landmark), row_of(landmark) + 1});
+    const auto Sigma = blocks_of_inverse(state.full_Omega(), blocks);
+    if (!Sigma) return std::nullopt;
+    marginals.pose = Sigma->front();
+    marginals.landmarks.assign(Sigma->begin() + 1, Sigma->end());
+    return marginals;
   }
   const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(state.full_Omega());
   if (!Sigma) return std::nullopt;
-  MarginalCovariances marginals{.pose = Sigma->block<3>(0), .landmarks = {}};
+  marginals.pose = Sigma->block<3>(0);
   for (const LandmarkId landmark : landmarks)
-    marginals.landmarks.push_back(Sigma->block<2>(InformationState::row_of(state.find(landmark).value())));
+    marginals.landmarks.push_back(Sigma->block<2>(row_of(landmark)));
   return marginals;
 }
 
-std::optional<std::vector<JointCovariance>> joint_covariances_of(const InformationState& state,
-                                                                 std::span<const LandmarkId> landmarks) {
-  const std::optional<MarginalCovariances> marginals = marginals_of(state, landmarks);
-  const auto columns = columns_of_inverse(state.full_Omega(), 0);  // of the pose
-  if (!marginals || !columns) return std::nullopt;
-  std::vector<JointCovariance> joint;
-  joint.reserve(landmarks.size());
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    const int row = InformationState::row_of(state.find(landmarks[i]).value());
-    joint.push_back(
-        joint_covariance(marginals->pose, columns->middleRows<2>(row).transpose(), marginals->landmarks[i]));
-  }
-  return joint;
+std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const InformationState& state,
+                                                                 std::span<const LandmarkIds> groups) {
+  const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
+  std::vector<std::vector<int>> blocks;
+  for (const LandmarkIds& group : groups) blocks.push_back(joint_rows(group, row_of));
+  return blocks_of_inverse(state.full_Omega(), blocks);
 }
 
 }  // namespace seif

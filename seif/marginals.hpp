@@ -36,14 +36,20 @@ class DiagonalBlocksOfInverse {
   Eigen::VectorXi permuted_;       // where row i of A went
 };
 
-/// The three columns of A^-1 from `first` on. (n x 3) `A` is symmetric, its lower triangle given. Nothing if
-/// it is not positive definite.
-std::optional<Eigen::Matrix<double, Eigen::Dynamic, 3>> columns_of_inverse(
-    const Eigen::SparseMatrix<double>& A, int first);
+/// A^-1 at the rows of each block and the same columns, by one factorisation and the ways from these rows up
+/// the elimination tree. `A` is symmetric, its lower triangle given. Nothing if it is not positive definite.
+std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Eigen::SparseMatrix<double>& A,
+                                                              std::span<const std::vector<int>> blocks);
 
-/// By its blocks.
-JointCovariance joint_covariance(const Eigen::Matrix3d& pose, const Eigen::Matrix<double, 3, 2>& cross,
-                                 const Eigen::Matrix2d& landmark);
+/// The rows of [x y theta m1x m1y ...] that a group's joint covariance takes, in its order.
+template <class RowOf>
+std::vector<int> joint_rows(const LandmarkIds& group, const RowOf& row_of) {
+  std::vector<int> rows = {0, 1, 2};
+  for (const LandmarkId landmark : group) {
+    for (const int i : {0, 1}) rows.push_back(row_of(landmark) + i);
+  }
+  return rows;
+}
 
 /// All means, in the order of the slots.
 std::vector<LandmarkEstimate> map_of(const InformationState& state);
@@ -59,8 +65,8 @@ void landmarks_of(const InformationState& state, std::span<const LandmarkId> lan
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks);
 
-/// As Estimator::joint_covariances, for little more than marginals_of().
-std::optional<std::vector<JointCovariance>> joint_covariances_of(const InformationState& state,
-                                                                 std::span<const LandmarkId> landmarks);
+/// As Estimator::joint_covariances, at the cost that marginals_of() has for a few.
+std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const InformationState& state,
+                                                                 std::span<const LandmarkIds> groups);
 
 }  // namespace seif

@@ -70,9 +70,9 @@ std::optional<MarginalCovariances> ReportSeif::marginal_covariances(
   return marginals_of(state_, landmarks);
 }
 
-std::optional<std::vector<JointCovariance>> ReportSeif::joint_covariances(
-    std::span<const LandmarkId> landmarks) const {
-  return joint_covariances_of(state_, landmarks);
+std::optional<std::vector<Eigen::MatrixXd>> ReportSeif::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
+  return joint_covariances_of(state_, groups);
 }
 
 }  // namespace seif

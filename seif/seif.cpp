@@ -196,9 +196,9 @@ std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const La
   return marginals_of(state_, landmarks);
 }
 
-std::optional<std::vector<JointCovariance>> Seif::joint_covariances(
-    std::span<const LandmarkId> landmarks) const {
-  return joint_covariances_of(state_, landmarks);
+std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
+  return joint_covariances_of(state_, groups);
 }
 
 }  // namespace seif

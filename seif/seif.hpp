@@ -61,8 +61,8 @@ class Seif final : public Estimator {
   std::vector<LandmarkEstimate> map() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
-  std::optional<std::vector<JointCovariance>> joint_covariances(
-      std::span<const LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> groups) const override;
 
   const InformationState& state() const { return state_; }
   const CondensationTree& tree() const { return tree_; }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "harness/log_stream.hpp"
@@ -22,6 +24,7 @@ class GraphBuilder {
                const std::vector<MapRecord>& map)
       : T_robot_sensor_(log.T_robot_sensor), trajectory_(std::move(trajectory)) {
     graph_.slam.start = log.start;
+    graph_.T_robot_sensor = log.T_robot_sensor;
     graph_.poses.push_back(log.start.mean);
     for (const MapRecord& landmark : map) map_[landmark.landmark] = landmark.mean;
   }
@@ -86,6 +89,52 @@ void add_pose(const seif::Pose2& pose, std::string& text) {
   fmt::format_to(std::back_inserter(text), " {} {} {}", pose.x, pose.y, pose.theta);
 }
 
+void add_vertices(std::span<const seif::Pose2> poses, std::span<const Eigen::Vector2d> landmarks,
+                  std::string& text) {
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    fmt::format_to(out, "VERTEX_SE2 {}", i);
+    add_pose(poses[i], text);
+    text += '\n';
+  }
+  for (std::size_t j = 0; j < landmarks.size(); ++j)
+    fmt::format_to(out, "VERTEX_XY {} {} {}\n", poses.size() + j, landmarks[j].x(), landmarks[j].y());
+}
+
+/// The error of an edge is that of its end as seen from where it was measured to be: turned by the motion
+/// from where our covariance is, which is the frame of its beginning.
+void add_motion(int from, const seif::Odometry& motion, std::string& text) {
+  fmt::format_to(std::back_inserter(text), "EDGE_SE2 {} {}", from, from + 1);
+  add_pose(motion.T_previous_current, text);
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // R_begin_end
+  R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(motion.T_previous_current.theta).toRotationMatrix();
+  add_information(Eigen::Matrix3d(R.transpose() * information_of_motion(motion.covariance) * R), text);
+}
+
+/// The motion of a sensor that is fixed to a robot, its covariance to first order. Where the robot errs by
+/// (d, phi) the sensor, at p on it, errs by d + R'(theta) p phi.
+seif::Odometry motion_of_sensor(const seif::Odometry& motion, const seif::Pose2& T_robot_sensor) {
+  const seif::Pose2& T = motion.T_previous_current;
+  const Eigen::Matrix2d R_sensor_robot = Eigen::Rotation2Dd(-T_robot_sensor.theta).toRotationMatrix();
+  const Eigen::Vector2d p = Eigen::Rotation2Dd(T.theta) * Eigen::Vector2d(T_robot_sensor.x, T_robot_sensor.y);
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  J.topLeftCorner<2, 2>() = R_sensor_robot;
+  J.topRightCorner<2, 1>() = R_sensor_robot * Eigen::Vector2d(-p.y(), p.x());
+  return {motion.t, inverse(T_robot_sensor) * T * T_robot_sensor, J * motion.covariance * J.transpose()};
+}
+
+/// From the vertex of a sensor's pose. The sensor is at T_vertex_sensor when it sees: there, unless the robot
+/// has moved in a way that is known exactly.
+void add_bearing_and_range(const Sighting& sighting, const seif::Pose2& T_vertex_sensor, int landmark,
+                           std::string& text) {
+  const seif::InverseObservation seen = seif::invert_observation({}, T_vertex_sensor, sighting.observation);
+  const seif::PredictedObservation from_vertex = seif::predict_observation({}, {}, seen.p_world_landmark);
+  const Eigen::Matrix2d J = from_vertex.J_wrt_landmark * seen.J_wrt_observation;
+  const Eigen::Vector2d sd = (J * sighting.observation.covariance * J.transpose()).diagonal().cwiseSqrt();
+  fmt::format_to(std::back_inserter(text), "BR {} {} {} {} {} {}\n", sighting.pose, landmark,
+                 from_vertex.z(1), from_vertex.z(0), sd(1), sd(0));
+}
+
 /// A range and a bearing as a point in the frame of the pose, its covariance to first order.
 void add_sighting(const Sighting& sighting, int landmark, std::string& text) {
   const seif::InverseObservation inverse =
@@ -108,25 +157,26 @@ RecordedGraph read_graph(const std::filesystem::path& run, const std::string& es
 
 std::string to_g2o(const RecordedGraph& graph) {
   std::string text;
-  const auto out = std::back_inserter(text);
-  for (std::size_t i = 0; i < graph.poses.size(); ++i) {
-    fmt::format_to(out, "VERTEX_SE2 {}", i);
-    add_pose(graph.poses[i], text);
-    text += '\n';
-  }
-  for (std::size_t j = 0; j < graph.landmarks.size(); ++j) {
-    const Eigen::Vector2d& p = graph.landmarks[j];
-    fmt::format_to(out, "VERTEX_XY {} {} {}\n", graph.poses.size() + j, p.x(), p.y());
-  }
+  add_vertices(graph.poses, graph.landmarks, text);
   text += "FIX 0\n";
-  for (std::size_t i = 0; i < graph.slam.motions.size(); ++i) {
-    const seif::Odometry& motion = graph.slam.motions[i];
-    fmt::format_to(out, "EDGE_SE2 {} {}", i, i + 1);
-    add_pose(motion.T_previous_current, text);
-    add_information(information_of_motion(motion.covariance), text);
-  }
+  for (int i = 0; const seif::Odometry& motion : graph.slam.motions) add_motion(i++, motion, text);
   for (const Sighting& sighting : graph.slam.sightings)
     add_sighting(sighting, graph.slam.pose_count() + sighting.landmark, text);
+  return text;
+}
+
+std::string to_gtsam(const RecordedGraph& graph) {
+  std::vector<seif::Pose2> poses = graph.poses;
+  for (seif::Pose2& pose : poses) pose = pose * graph.T_robot_sensor;
+  std::string text;
+  add_vertices(poses, graph.landmarks, text);
+  for (int i = 0; const seif::Odometry& motion : graph.slam.motions)
+    add_motion(i++, motion_of_sensor(motion, graph.T_robot_sensor), text);
+  const seif::Pose2 T_sensor_robot = inverse(graph.T_robot_sensor);
+  for (const Sighting& sighting : graph.slam.sightings) {
+    add_bearing_and_range(sighting, T_sensor_robot * sighting.T_pose_sensor,
+                          graph.slam.pose_count() + sighting.landmark, text);
+  }
   return text;
 }
 

@@ -12,6 +12,7 @@ namespace harness {
 /// A recorded stream as a full SLAM problem, and the first guess that an estimator's results are.
 struct RecordedGraph {
   FullSlam slam;
+  seif::Pose2 T_robot_sensor;
   std::vector<seif::Pose2> poses;          // T_world_robot, one for each of the problem's
   std::vector<Eigen::Vector2d> landmarks;  // p_world_landmark [m]
   std::vector<seif::LandmarkId> ids;       // of the landmarks
@@ -22,8 +23,12 @@ struct RecordedGraph {
 /// Throws BadInput.
 RecordedGraph read_graph(const std::filesystem::path& run, const std::string& estimator);
 
-/// As g2o and GTSAM read it: VERTEX_SE2 from 0, VERTEX_XY behind them in the order in which the landmarks
-/// were first seen, EDGE_SE2, EDGE_SE2_XY, and the first pose fixed.
+/// As g2o reads it: VERTEX_SE2 from 0, VERTEX_XY behind them in the order in which the landmarks were first
+/// seen, EDGE_SE2, EDGE_SE2_XY, and the first pose fixed.
 std::string to_g2o(const RecordedGraph& graph);
+
+/// As GTSAM's readG2o reads it, which passes over EDGE_SE2_XY: landmarks by BR, bearing and range. These are
+/// from a VERTEX_SE2, so that the poses and motions are those of the sensor.
+std::string to_gtsam(const RecordedGraph& graph);
 
 }  // namespace harness

@@ -65,7 +65,7 @@ Comparison run_paper(const PaperPlan& plan, const std::string& name, const seif:
     const std::uint64_t seed = plan.first_seed + static_cast<std::uint64_t>(i);
     planned.push_back({fmt::format("{}-{}", name, seed), [&plan, &registry, seed] {
                          PreparedRun run = prepare_run(paper_world(plan, seed, registry), registry);
-                         return execute_in_passing(run);
+                         return DetailedRun{execute_in_passing(run)};
                        }});
   }
   FinishedRuns finished = execute_all(planned, plan.jobs, plan.quiet);

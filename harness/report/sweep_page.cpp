@@ -26,7 +26,13 @@ const PlottedScore plotted[] = {
     {"ate_rmse_m", "ate", "Error of the trajectory", {"mean ATE [m]"}},
     {"nees_pose_final", "nees-pose", "NEES of the pose at the end", {"mean NEES [-]", true}},
     {"nees_landmark_final", "nees-map", "NEES of the map at the end", {"mean NEES [-]", true}},
-    {"links", "links", "Links at the end", {"mean links [-]"}}};
+    {"nees_landmark_from_robot_final",
+     "nees-from-robot",
+     "NEES of landmarks as seen from the robot",
+     {"mean NEES [-]", true}},
+    {"nis_scan", "nis", "NIS of whole scans", {"mean NIS [-]"}},
+    {"links", "links", "Links at the end", {"mean links [-]"}},
+    {"memory_bytes", "memory", "Memory of the filter at the end", {"mean memory [byte]", true}}};
 
 std::string paths_of(const SweepPlan& plan) {
   std::vector<std::string> paths;
@@ -61,7 +67,7 @@ void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& cur
 Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
                     const std::vector<Drawn>& estimators) {
   Figure figure{.id = score.id, .title = score.title, .y = score.axis};
-  figure.x.label = paths_of(aggregate.plan);
+  figure.x.label = fmt::format("{}", fmt::join(short_paths(aggregate.plan), ", "));
   figure.caption = "Means over the seeds with their 95 % confidence intervals (Student's).";
   for (const SettingStatistics& setting : aggregate.settings)
     figure.categories.push_back(setting.values.empty() ? "all seeds"
@@ -109,9 +115,9 @@ Page sweep_page(const std::filesystem::path& folder) {
                 {"Made by version", plan.version}};
   page.tables = {
       {"Means over the seeds", aggregate_table(aggregate),
-       fmt::format("The column less {}'s is the 95 % interval of the difference in the same run: where it "
+       fmt::format("{}The column less {}'s is the 95 % interval of the difference in the same run: where it "
                    "does not hold zero, the two differ.",
-                   plan.baseline)}};
+                   plan.axes.empty() ? "" : fmt::format("Varied: {}. ", paths_of(plan)), plan.baseline)}};
   const std::vector<Drawn> estimators = estimators_of(aggregate);
   for (const PlottedScore& score : plotted) {
     Figure figure = intervals_of(aggregate, score, estimators);

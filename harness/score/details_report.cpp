@@ -20,9 +20,8 @@ Json number(const std::optional<double>& value) { return value ? Json(*value) : 
 
 void add_trajectory(const RunDetails& run, const EstimatorDetails& details, Json& json) {
   for (std::size_t i = 0; i < details.rpe.size(); ++i) {
-    json["rpe_along_path"].push_back({{"distance_m", run.choices.distances[i]},
-                                      {"trans_m", number(details.rpe[i].translation)},
-                                      {"rot_rad", number(details.rpe[i].rotation)}});
+    json["rpe_along_path"][fmt::format("{}", run.choices.distances[i])] = {
+        {"trans_m", number(details.rpe[i].translation)}, {"rot_rad", number(details.rpe[i].rotation)}};
   }
   for (std::size_t i = 0; i < response_updates.size(); ++i)
     json["loop_closure_error_m"][fmt::format("{}", response_updates[i])] = number(details.closure_error[i]);
@@ -35,6 +34,12 @@ void add_rebuilt(const RebuiltScore& rebuilt, Json& json) {
   json["nis"] = number(rebuilt.nis);
   json["nis_inside"] = number(rebuilt.nis_inside);
   json["nis_inside_of"] = rebuilt.observations;
+  const ScanNisScore& scans = rebuilt.scans;
+  json["nis_scan"] = number(scans.nis);
+  json["nis_scan_band"] = {{"low", number(scans.band ? std::optional(scans.band->low) : std::nullopt)},
+                           {"high", number(scans.band ? std::optional(scans.band->high) : std::nullopt)}};
+  json["nis_scan_inside"] = number(scans.inside);
+  json["nis_scan_inside_of"] = scans.count;
 }
 
 void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json& json) {
@@ -58,6 +63,10 @@ std::string percent_cell(std::optional<double> share) {
   return number_cell(share, 0);
 }
 
+std::string band_cell(const std::optional<ConfidenceInterval>& band) {
+  return band ? fmt::format("{:.2f} to {:.2f}", band->low, band->high) : "-";
+}
+
 TextRow map_row(const EstimatorDetails& details) {
   return {details.name,
           count_cell(details.map, &MapCounts::missed),
@@ -77,7 +86,11 @@ TextRow rebuilt_row(const EstimatorDetails& details) {
           percent_cell(rebuilt.landmarks_from_robot_inside),
           number_cell(rebuilt.nis, 2),
           percent_cell(rebuilt.nis_inside),
-          fmt::format("{}", rebuilt.observations)};
+          fmt::format("{}", rebuilt.observations),
+          number_cell(rebuilt.scans.nis, 2),
+          band_cell(rebuilt.scans.band),
+          percent_cell(rebuilt.scans.inside),
+          fmt::format("{}", rebuilt.scans.count)};
 }
 
 TextRow path_row(const EstimatorDetails& details) {
@@ -113,8 +126,8 @@ std::string to_json(const Summary& summary, const RunDetails& details) {
 std::vector<std::vector<TextRow>> details_tables(const RunDetails& details) {
   std::vector<TextRow> map = {{"map", "missed", "spurious", "duplicate", "from robot [m]", "pose inside [%]",
                                "of", "map inside [%]"}};
-  std::vector<TextRow> rebuilt = {
-      {"from robot", "NEES map", "at the end", "inside [%]", "NIS", "inside [%]", "of"}};
+  std::vector<TextRow> rebuilt = {{"from robot", "NEES map", "at the end", "inside [%]", "NIS", "inside [%]",
+                                   "of", "NIS of scans", "95 % band", "inside [%]", "of"}};
   std::vector<TextRow> path = {{"RPE along path"}};
   for (const double distance : details.choices.distances) {
     path.front().push_back(fmt::format("{} m [m]", distance));

@@ -2,7 +2,27 @@
 
 #include <cmath>
 
+#include "harness/score/chi_square.hpp"
+
 namespace harness {
+
+ScanNisScore score_scans(std::span<const ScanNis> scans) {
+  ScanNisScore score;
+  double sum = 0.0;
+  double inside = 0.0;
+  int degrees = 0;
+  for (const ScanNis& scan : scans) {
+    sum += scan.degrees * scan.nis;
+    degrees += scan.degrees;
+    inside += share_inside({&scan.nis, 1}, chi_square_band(scan.degrees)).value();
+  }
+  if (degrees == 0) return score;
+  score.nis = sum / degrees;
+  score.band = chi_square_band(degrees);
+  score.count = scans.size();
+  score.inside = inside / static_cast<double>(scans.size());
+  return score;
+}
 
 std::optional<double> nees_from_robot(const PosePair& pose, const PointPair& landmark,
                                       const Eigen::Matrix<double, 5, 5>& joint) {

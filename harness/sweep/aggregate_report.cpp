@@ -73,6 +73,8 @@ TextRow board_row(const SettingStatistics& setting, const EstimatorStatistics& e
   row.push_back(mean_cell(estimator, "ate_rmse_m", 3));
   row.push_back(mean_cell(estimator, "nees_pose_final", 2));
   row.push_back(mean_cell(estimator, "nees_landmark_final", 2));
+  row.push_back(mean_cell(estimator, "nees_landmark_from_robot_final", 2));
+  row.push_back(mean_cell(estimator, "nis_scan", 2));
   row.push_back(mean_cell(estimator, "links", 0));
   return row;
 }
@@ -120,11 +122,11 @@ std::string to_csv(const Aggregate& aggregate) {
 
 std::vector<TextRow> aggregate_table(const Aggregate& aggregate) {
   const SweepPlan& plan = aggregate.plan;
-  TextRow header;
-  for (const SweepAxis& axis : plan.axes) header.push_back(axis.path);
+  TextRow header = short_paths(plan);
   for (const char* column : {"estimator", "runs", "failed", "aligned [m]"}) header.emplace_back(column);
   header.push_back(fmt::format("less {}'s, 95 %", plan.baseline));
-  for (const char* column : {"ATE [m]", "NEES pose", "NEES map", "links"}) header.emplace_back(column);
+  for (const char* column : {"ATE [m]", "NEES pose", "NEES map", "from robot", "NIS", "links"})
+    header.emplace_back(column);
   std::vector<TextRow> rows = {header};
   for (const SettingStatistics& setting : aggregate.settings) {
     for (const EstimatorStatistics& estimator : setting.estimators)

@@ -101,6 +101,16 @@ std::vector<std::string> values_of(const SweepPlan& plan, std::size_t setting) {
   return values;
 }
 
+std::vector<std::string> short_paths(const SweepPlan& plan) {
+  const auto last_key = [](const SweepAxis& axis) { return axis.path.substr(axis.path.rfind('.') + 1); };
+  std::vector<std::string> paths;
+  for (const SweepAxis& axis : plan.axes) {
+    const bool is_unique = std::ranges::count(plan.axes, last_key(axis), last_key) == 1;
+    paths.push_back(is_unique ? last_key(axis) : axis.path);
+  }
+  return paths;
+}
+
 std::vector<std::string> overrides_of(const SweepPlan& plan, const SweepCell& cell) {
   const std::vector<std::string> values = values_of(plan, cell.setting);
   std::vector<std::string> overrides;

@@ -50,6 +50,9 @@ SweepCell cell_at(const SweepPlan& plan, std::size_t index);
 /// The values of the axes, in their order.
 std::vector<std::string> values_of(const SweepPlan& plan, std::size_t setting);
 
+/// The path of each axis for people: its last key, or all of it where another axis has the same.
+std::vector<std::string> short_paths(const SweepPlan& plan);
+
 /// What makes the world of a cell out of the sweep's: `path.to.key=value`.
 std::vector<std::string> overrides_of(const SweepPlan& plan, const SweepCell& cell);
 

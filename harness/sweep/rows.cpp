@@ -32,6 +32,7 @@ EstimatorRow row_of(const std::string& name, const Json& run, const Json& scores
   row.estimator = name;
   for (const char* key : {"updates", "duration_s", "trajectory_hash"})
     add_value(key, run.at(key), row.scores);
+  if (run.contains("loop_closures")) add_value("loop_closures", run["loop_closures"], row.scores);
   add_value("realtime_factor", run.at("realtime_factor"), row.times);
   for (const auto& [key, value] : scores.items()) {
     if (key == "failure") {

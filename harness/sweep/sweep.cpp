@@ -7,6 +7,7 @@
 
 #include "harness/baseline.hpp"
 #include "harness/csv_reader.hpp"
+#include "harness/detailed_run.hpp"
 #include "harness/estimator_schemas.hpp"
 #include "harness/interrupt.hpp"
 #include "harness/prepared_run.hpp"
@@ -59,27 +60,30 @@ std::vector<worlds::Problem> check_settings(const std::filesystem::path& world, 
 }
 
 std::string execute_cell(const SweepFolder& sweep, std::size_t index, const seif::Registry& registry,
-                         RunResult& result) {
+                         DetailedRun& done) {
   const worlds::LoadResult loaded = worlds::load_world(
       sweep.world(), overrides_of(sweep.plan, cell_at(sweep.plan, index)), estimator_schemas(registry));
   if (!loaded.world) return worlds::to_string(loaded.problems.front());
   PreparedRun run = prepare_run(*loaded.world, registry);
-  result = execute_in_passing(run);
-  return result.error;
+  const TemporaryFolder folder;
+  run.plan.folder = folder.path();
+  run.plan.quiet = true;
+  done = execute_in_detail(run);
+  return done.result.error;
 }
 
 /// What the process of a cell does. The exit code.
 int run_cell(const SweepFolder& sweep, std::size_t index, const seif::Registry& registry) {
-  RunResult result;
+  DetailedRun done;
   std::string failure;
   try {
-    failure = execute_cell(sweep, index, registry, result);
+    failure = execute_cell(sweep, index, registry, done);
   } catch (const std::exception& error) {
     failure = error.what();
   }
-  if (result.summary.interrupted) return 130;
+  if (done.result.summary.interrupted) return 130;
   if (failure.empty()) {
-    sweep.cells().put_result(index, to_json(result.summary));
+    sweep.cells().put_result(index, to_json(done));
   } else {
     sweep.cells().put_failure(index, failure);
   }

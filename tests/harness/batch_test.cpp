@@ -123,13 +123,14 @@ class DenseOracle {
     const Eigen::MatrixXd G = jacobian([this](const VectorXd& x) -> VectorXd { return last_pose(x); }, x_);
     return G * Sigma_ * G.transpose();
   }
-  seif::JointCovariance joint_covariance(int m) const {
-    const auto pose_and_landmark = [&](const VectorXd& x) -> VectorXd {
-      VectorXd both(5);
-      both << last_pose(x), x.segment<2>(size_ - 16 + 2 * m);
-      return both;
+  Eigen::MatrixXd joint_covariance(const std::vector<int>& landmarks) const {
+    const auto pose_and_landmarks = [&](const VectorXd& x) -> VectorXd {
+      VectorXd all(3 + 2 * static_cast<int>(landmarks.size()));
+      all.head<3>() = last_pose(x);
+      for (int i = 0; const int m : landmarks) all.segment<2>(3 + 2 * i++) = x.segment<2>(size_ - 16 + 2 * m);
+      return all;
     };
-    const Eigen::MatrixXd G = jacobian(pose_and_landmark, x_);
+    const Eigen::MatrixXd G = jacobian(pose_and_landmarks, x_);
     return G * Sigma_ * G.transpose();
   }
   /// After each motion.
@@ -235,20 +236,39 @@ TEST_P(BatchDrives, IsTheOptimumThatADenseSolverFinds) {
   EXPECT_TRUE(marginals->pose.isApprox(oracle.pose_covariance(), 1e-5));
 }
 
-TEST_P(BatchDrives, KnowsThePoseTogetherWithEachLandmark) {
+TEST_P(BatchDrives, KnowsThePoseTogetherWithLandmarks) {
   const auto [drive, guide] = GetParam();
   const Recording recording = record(drive, 14, 1.0, 1);
   const auto batch = make("batch", recording.start, guide);
   feed(recording, *batch);
-  EXPECT_FALSE(batch->joint_covariances(std::vector<seif::LandmarkId>{})) << "it was not solved for";
-  const std::vector<seif::LandmarkId> ids = ids_of(*batch);
-  const auto joint = batch->joint_covariances(ids);
+  EXPECT_FALSE(batch->joint_covariances({})) << "it was not solved for";
+  std::vector<seif::LandmarkIds> groups = {ids_of(*batch)};
+  for (const seif::LandmarkId id : ids_of(*batch)) groups.push_back({id});
+  const auto joint = batch->joint_covariances(groups);
   ASSERT_TRUE(joint);
   const DenseOracle oracle(recording);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const seif::JointCovariance expected = oracle.joint_covariance(ids[i]);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Eigen::MatrixXd expected = oracle.joint_covariance(groups[i]);
     EXPECT_TRUE((*joint)[i].isApprox(expected, 1e-5)) << (*joint)[i] << '\n' << expected;
   }
+}
+
+TEST_P(BatchDrives, IsNotSolvedForALookAtALandmark) {
+  const auto [drive, guide] = GetParam();
+  const Recording recording = record(drive, 14, 1.0, 1);
+  const auto batch = make("batch", recording.start, guide);
+  const auto alone = make(guide, recording.start);
+  feed(recording, *batch);
+  feed(recording, *alone);
+  const std::vector<seif::LandmarkId> one = {alone->map().at(1).landmark};
+  std::vector<seif::LandmarkEstimate> seen;
+  batch->landmarks(one, seen);
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].mean, alone->map().at(1).mean);
+  EXPECT_FALSE(batch->joint_covariances({})) << "it was solved for";
+  const std::vector<seif::LandmarkEstimate> optimum = batch->map();
+  batch->landmarks(one, seen);
+  EXPECT_EQ(seen.at(0).mean, std::ranges::find(optimum, one[0], &seif::LandmarkEstimate::landmark)->mean);
 }
 
 TEST_P(BatchDrives, TellsOfItsPosesAtAllScans) {

@@ -24,6 +24,20 @@ EstimatorScore score(const std::string& name, double rmse, double nees, int link
   return score;
 }
 
+/// Of two estimators in run `i`. That of `b` in the second, in which it fails, must not count.
+RunDetails details(int i) {
+  RunDetails run;
+  for (const char* name : {"a", "b"}) {
+    EstimatorDetails& estimator = run.estimators.emplace_back();
+    estimator.name = name;
+    if (i == 2 && estimator.name == "b") i = 1000;
+    estimator.map = MapCounts{.missed = i, .spurious = 2 * i, .duplicate = 3 * i};
+    estimator.rebuilt.nees_landmark_from_robot_final = 0.5 * i;
+    estimator.rebuilt.scans = {.nis = 1.0 + i, .band = {}, .count = 10, .inside = 0.1 * i};
+  }
+  return run;
+}
+
 /// Two estimators in three runs of 100 updates; `b` has failed in the second.
 Comparison example() {
   Comparison comparison;
@@ -34,7 +48,7 @@ Comparison example() {
     result.summary.updates = 100;
     result.summary.score.estimators = {score("a", i, 1.0, 10 * i), score("b", 2 * i, 3.0 * i, 20 * i)};
     result.summary.failures = {"", i == 2 ? "at 5 s: gave up" : ""};
-    comparison.runs.push_back({"example-" + std::to_string(i), result});
+    comparison.runs.push_back({"example-" + std::to_string(i), result, details(i)});
   }
   compare_estimators(comparison);
   return comparison;
@@ -64,6 +78,15 @@ TEST(Comparison, TakesMeansOverTheRunsThatAnEstimatorFinished) {
   EXPECT_EQ(b.links_max, 120.0);
   EXPECT_DOUBLE_EQ(*b.relocations_per_update, 0.25);
   EXPECT_DOUBLE_EQ(*b.update_p99_us, 8.0);
+
+  EXPECT_DOUBLE_EQ(a.nees_from_robot->value, 1.0);
+  EXPECT_DOUBLE_EQ(a.nis_scan->value, 3.0);
+  EXPECT_TRUE(a.nis_scan->interval);
+  EXPECT_DOUBLE_EQ(*a.nis_scan_inside, 0.2);
+  EXPECT_DOUBLE_EQ(*a.landmarks_missed, 2.0);
+  EXPECT_DOUBLE_EQ(*b.landmarks_spurious, 4.0);
+  EXPECT_DOUBLE_EQ(*b.landmarks_duplicate, 6.0);
+  EXPECT_DOUBLE_EQ(b.nees_from_robot->value, 1.0);
 }
 
 TEST(Comparison, TakesRatiosOfTheRunsThatBothFinished) {
@@ -101,12 +124,14 @@ TEST(Comparison, JsonHasIntervalsAndEveryRun) {
   EXPECT_LT(mse["low"], mse["value"]);
   EXPECT_GT(mse["high"], mse["value"]);
   EXPECT_EQ(json["estimators"]["b"]["failed"], 1);
+  EXPECT_EQ(json["estimators"]["a"]["nis_scan"]["value"], 3.0);
+  EXPECT_EQ(json["runs"][2]["summary"]["estimators"]["b"]["landmarks_missed"], 3);
 }
 
-RunResult named(const std::string& world) {
-  RunResult result;
-  result.summary.world = world;
-  return result;
+DetailedRun named(const std::string& world) {
+  DetailedRun run;
+  run.result.summary.world = world;
+  return run;
 }
 
 TEST(ExecuteAll, KeepsTheOrderWhateverTheThreadsAndCatchesWhatIsThrown) {
@@ -135,9 +160,9 @@ TEST(ExecuteAll, AnInterruptLeavesTheRunsThatHaveEnded) {
                                            {"second",
                                             [] {
                                               std::raise(SIGINT);
-                                              RunResult result = named("second");
-                                              result.summary.interrupted = true;
-                                              return result;
+                                              DetailedRun run = named("second");
+                                              run.result.summary.interrupted = true;
+                                              return run;
                                             }},
                                            {"third", [] { return named("third"); }}};
   const FinishedRuns finished = execute_all(planned, 1, true);

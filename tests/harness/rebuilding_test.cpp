@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <numbers>
 
 namespace harness {
 namespace {
@@ -21,10 +23,15 @@ class Told final : public seif::Estimator {
       std::span<const seif::LandmarkId>) const override {
     return std::nullopt;
   }
-  std::optional<std::vector<seif::JointCovariance>> joint_covariances(
-      std::span<const seif::LandmarkId> landmarks) const override {
-    const Eigen::Vector<double, 5> variances(0.01, 0.01, 0.04, 0.01, 0.01);
-    return std::vector<seif::JointCovariance>(landmarks.size(), variances.asDiagonal());
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const seif::LandmarkIds> groups) const override {
+    std::vector<Eigen::MatrixXd> joint;
+    for (const seif::LandmarkIds& group : groups) {
+      Eigen::VectorXd variances = Eigen::VectorXd::Constant(3 + 2 * static_cast<int>(group.size()), 0.01);
+      variances(2) = 0.04;
+      joint.emplace_back(variances.asDiagonal());
+    }
+    return joint;
   }
 };
 
@@ -79,6 +86,27 @@ TEST_F(Rebuilt, NisIsOfTheScanAfterAScoringTimeAndOfKnownLandmarks) {
   EXPECT_EQ(score.observations, 3U);
   EXPECT_NEAR(*score.nis, (0.0 + 0.6 + 50.0) / 3, 1e-12);
   EXPECT_NEAR(*score.nis_inside, 1.0 / 3, 1e-12) << "the band is 0.025 to 3.69";
+}
+
+// Of landmarks 4 and 5, seen 0.2 m too far and at 0.1 rad and 0 more than expected. In S the ranges have
+// variances of 0.04 and covariance 0 (they point along x and y). A bearing of landmark 4 turns by
+// -theta - y / 2 + m_y / 2, of landmark 5 by -theta + x / 3 - m_x / 3: variances 0.05 and
+// 0.04 + 0.02 / 9 + 0.005, covariance 0.04. Range 4 against bearing 5: -x of the robot and x / 3, so
+// -0.01 / 3; range 5 against bearing 4: -y and -y / 2, so 0.005.
+TEST_F(Rebuilt, NisOfAScanMatchesTheHandComputedCase) {
+  RebuiltConsistency rebuilt(believers, log, 10);
+  rebuilt.scored();
+  rebuilt.scan(scan({observation(4, 2.2, 0.1), observation(5, 3.2, std::numbers::pi / 2)}));
+  Eigen::Matrix4d S;               // range 4, bearing 4, range 5, bearing 5
+  S << 0.04, 0.0, 0.0, -0.01 / 3,  //
+      0.0, 0.05, 0.005, 0.04,      //
+      0.0, 0.005, 0.04, 0.0,       //
+      -0.01 / 3, 0.04, 0.0, 0.045 + 0.02 / 9;
+  const Eigen::Vector4d nu(0.2, 0.1, 0.2, 0.0);
+  const ScanNisScore scans = rebuilt.scores().at(0).scans;
+  EXPECT_EQ(scans.count, 1U);
+  EXPECT_NEAR(*scans.nis, nu.dot(S.inverse() * nu) / 4, 1e-12);
+  EXPECT_EQ(scans.inside, 1.0);
 }
 
 TEST_F(Rebuilt, NisIsNotOfAFilterThatHasFailed) {

@@ -41,12 +41,13 @@ const std::vector<Room>& all_rooms() {
        false,
        {"worlds", "Eigen3::Eigen"},
        {"PkgConfig::bullet", "fmt::fmt", "render", "seifbed_flags"}},
+      {"harness/peers", {"harness/peers/"}, false, {}, {"mrpt::slam", "seifbed_portable_flags"}},
       {"harness",
        {"harness/", "sim/", "sensors/", "seif/", "worlds/"},
        false,
        {"seif", "worlds", "sensors", "sim", "render", "harness", "Eigen3::Eigen"},
        {"Boost::headers", "Ceres::ceres", "fmt::fmt", "nlohmann_json::nlohmann_json", "CLI11::CLI11",
-        "seifbed_flags"}},
+        "${CMAKE_DL_LIBS}", "seifbed_flags"}},
   };
   return rooms;
 }
@@ -75,10 +76,10 @@ bool is_upper(std::string_view word, std::size_t at) {
   return at < word.size() && std::isupper(static_cast<unsigned char>(word[at])) != 0;
 }
 
-const std::array<Library, 9>& libraries() {
+const std::array<Library, 10>& libraries() {
   using View = std::string_view;
   constexpr auto in_render = [](View path) { return is_inside(path, "sim/render"); };
-  static constexpr std::array<Library, 9> all = {{
+  static constexpr std::array<Library, 10> all = {{
       {"Bullet",
        [](View include) {
          return include.starts_with("bt") || include.starts_with("Bullet") ||
@@ -106,6 +107,9 @@ const std::array<Library, 9>& libraries() {
       {"Ceres", [](View include) { return include.starts_with("ceres/"); },
        [](View word) { return word == "ceres"; },
        [](View path) { return is_inside(path, "harness") && !is_header(path); }},
+      {"MRPT", [](View include) { return include.starts_with("mrpt/"); },
+       [](View word) { return word == "mrpt"; },
+       [](View path) { return is_inside(path, "harness/peers") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; },
        [](View path) { return is_inside(path, "harness") || is_inside(path, "tests/harness"); }},

@@ -7,6 +7,7 @@
 //   sensors                 sensors, seif/types.hpp, Eigen
 //   sim, but for render     sim, worlds, Eigen, fmt           Bullet
 //   sim/render              sim/render, Eigen, fmt            OSMesa
+//   harness/peers           harness/peers                     MRPT
 //   harness                 everything                        nlohmann, CLI11
 //
 // A test of a room may include what the room may, and by their bare names the files beside it.

@@ -25,7 +25,7 @@ TEST(Arrows, MayBeFollowed) {
   EXPECT_EQ(check_include("sensors/wheel_encoders.hpp", R"("seif/types.hpp")"), none);
   EXPECT_EQ(check_include("sim/vehicle.hpp", R"("worlds/world.hpp")"), none);
   EXPECT_EQ(check_include("sim/render/scene.cpp", R"("sim/render/scene.hpp")"), none);
-  for (const char* room : {"seif", "worlds", "sensors", "sim", "sim/render", "harness"}) {
+  for (const char* room : {"seif", "worlds", "sensors", "sim", "sim/render", "harness", "harness/peers"}) {
     EXPECT_EQ(check_include("harness/run.cpp", std::string("\"") + room + "/a.hpp\""), none) << room;
   }
   EXPECT_EQ(check_include("tests/seif/ekf_test.cpp", R"("seif/ekf.hpp")"), none);
@@ -57,6 +57,8 @@ TEST(Arrows, MayNotBeCrossed) {
       {"harness/run.cpp", "stream.hpp"},
       {"seif/ekf.cpp", "seif/../sim/simulator.hpp"},
       {"docs/example.cpp", "seif/estimator.hpp"},
+      {"harness/peers/mrpt_filter.cpp", "seif/types.hpp"},
+      {"harness/peers/mrpt_filter.cpp", "harness/stream.hpp"},
   };
   for (const auto& [path, include] : crossings) {
     const Findings expected = {path + ":2: may not include " + include};
@@ -84,6 +86,9 @@ TEST(Libraries, MayBeUsedAtHome) {
   EXPECT_EQ(check_include("harness/summary.cpp", "<nlohmann/json.hpp>"), none);
   EXPECT_EQ(check_include("harness/main.cpp", "<CLI/CLI.hpp>"), none);
   EXPECT_EQ(check_include("harness/full_slam.cpp", "<ceres/problem.h>"), none);
+  EXPECT_EQ(
+      check("harness/peers/mrpt_filter.cpp", "#include <mrpt/poses/CPose2D.h>\nmrpt::poses::CPose2D pose;\n"),
+      none);
   EXPECT_EQ(check_include("harness/statistics.cpp", "<boost/math/distributions/students_t.hpp>"), none);
 }
 
@@ -107,6 +112,8 @@ TEST(Libraries, StayAtHome) {
       {"harness/full_slam.hpp", "ceres/problem.h"},
       {"harness/statistics.hpp", "boost/math/distributions/students_t.hpp"},
       {"sim/simulator.cpp", "ceres/solver.h"},
+      {"harness/mrpt_ekf.cpp", "mrpt/poses/CPose2D.h"},
+      {"harness/peers/mrpt_filter.hpp", "mrpt/poses/CPose2D.h"},
   };
   for (const auto& [path, include] : strays) {
     const Findings findings = check_include(path, "<" + include + ">");
@@ -122,6 +129,7 @@ TEST(Libraries, AreNotNamedAbroadEither) {
                                                                   {"harness/film.cpp", "png_image"},
                                                                   {"tests/render/text_test.cpp", "FT_Face"},
                                                                   {"worlds/load.hpp", "YAML"},
+                                                                  {"harness/mrpt_ekf.hpp", "mrpt"},
                                                                   {"worlds/schema.hpp", "nlohmann"}};
   for (const auto& [path, name] : names) {
     const Findings findings = check(path, "#pragma once\nclass " + name + ";\n");
@@ -222,6 +230,13 @@ TEST(LinkLines, MaySayWhatTheArchitectureSays) {
                                "target_link_libraries(render PUBLIC Eigen3::Eigen PRIVATE OSMesa::headers "
                                "Freetype::Freetype PNG::PNG ${CMAKE_DL_LIBS} seifbed_flags)\n"}),
             none);
+  EXPECT_EQ(check_cmake_lists({"harness/peers/CMakeLists.txt",
+                               "find_package(mrpt-slam QUIET)\n"
+                               "if(mrpt-slam_FOUND)\n"
+                               "  add_library(peers MODULE a.cpp)\n"
+                               "  target_link_libraries(peers PRIVATE mrpt::slam seifbed_portable_flags)\n"
+                               "endif()\n"}),
+            none);
   EXPECT_EQ(
       check_cmake_lists({"harness/CMakeLists.txt",
                          "add_library(harness STATIC a.cpp)\n"
@@ -239,6 +254,8 @@ TEST(LinkLines, MayNotGoAgainstTheArrows) {
       {"worlds", "PRIVATE seif", "seif privately"},
       {"sensors", "PUBLIC seif sim", "sim publicly"},
       {"sim", "worlds PkgConfig::bullet", "PkgConfig::bullet publicly"},
+      {"harness", "PRIVATE peers", "peers privately"},
+      {"harness", "PRIVATE mrpt::slam", "mrpt::slam privately"},
       {"sim", "PUBLIC worlds PRIVATE OSMesa::headers", "OSMesa::headers privately"},
       {"sim", "PUBLIC worlds PRIVATE Freetype::Freetype", "Freetype::Freetype privately"},
       {"harness", "PUBLIC sim PRIVATE PNG::PNG", "PNG::PNG privately"},

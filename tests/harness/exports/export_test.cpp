@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "harness/command_call.hpp"
@@ -49,7 +51,7 @@ void write_log(const std::filesystem::path& log) {
              "t,dx,dy,dtheta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt\n"
              "1,1,0,0,0.04,0,0,0.01,0,0\n"
              "2,1,0,0,0.04,0,0,0.01,0,0.25\n"
-             "3,2,0,1,0.25,0,0,0.25,0,0.25\n");
+             "3,2,0,1,0.25,0,0,0.04,0,0.25\n");
   write_file(log / "observations.csv",
              "t,landmark,range,bearing\n2,7,2,1.5707963267948966\n3,7,1,0\n3,3,4,0\n");
   write_file(log / "filter.tum", "2 3.1 2 0 0 0 0 1\n3 5 2.2 0 0 0 0.479425538604203 0.8775825618903728\n");
@@ -72,13 +74,71 @@ TEST(G2o, MatchesTheHandComputedCase) {
   // would turn the second.
   ASSERT_EQ(lines["EDGE_SE2"].size(), 2U);
   expect_near(lines["EDGE_SE2"][0], {0, 1, 2, 0, 0, 1 / 0.08, 0, 0, 1 / 0.02, 0, 1 / 0.25});
-  expect_near(lines["EDGE_SE2"][1], {1, 2, 2, 0, 1, 4, 0, 0, 4, 0, 4});
+  // The error of the second counts in the frame of its end, one radian to the left of where it has variances
+  // 0.25 and 0.04.
+  const double c = std::cos(1.0);
+  const double s = std::sin(1.0);
+  expect_near(lines["EDGE_SE2"][1],
+              {1, 2, 2, 0, 1, 4 * c * c + 25 * s * s, 21 * c * s, 0, 4 * s * s + 25 * c * c, 0, 4});
   // The sensor is 0.5 m ahead. At 2 m to the left the range errs along y by 0.1 m, the bearing along x by 2 *
   // 0.1.
   ASSERT_EQ(lines["EDGE_SE2_XY"].size(), 3U);
   expect_near(lines["EDGE_SE2_XY"][0], {1, 3, 0.5, 2, 25, 0, 100});
   expect_near(lines["EDGE_SE2_XY"][1], {2, 3, 1.5, 0, 100, 0, 100});
   expect_near(lines["EDGE_SE2_XY"][2], {2, 4, 4.5, 0, 100, 0, 1 / 0.16});
+}
+
+TEST(Gtsam, MatchesTheHandComputedCase) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  auto lines = parse(to_gtsam(read_graph(folder / "log", "filter")));
+  // The sensor, 0.5 m ahead.
+  ASSERT_EQ(lines["VERTEX_SE2"].size(), 3U);
+  expect_near(lines["VERTEX_SE2"][1], {1, 3.6, 2, 0});
+  expect_near(lines["VERTEX_SE2"][2], {2, 5 + 0.5 * std::cos(1.0), 2.2 + 0.5 * std::sin(1.0), 1});
+  expect_near(lines["VERTEX_XY"][1], {4, 8, 9});
+  // Where the robot errs by phi, the sensor errs by 0.5 phi to the left: variance 0.02 + 0.25 * 0.25,
+  // covariance 0.5 * 0.25 with the heading. The inverse of ((0.0825, 0.125), (0.125, 0.25)) has the
+  // determinant 0.005.
+  expect_near(lines["EDGE_SE2"][0],
+              {0, 1, 2, 0, 0, 1 / 0.08, 0, 0, 0.25 / 0.005, -0.125 / 0.005, 0.0825 / 0.005});
+  ASSERT_EQ(lines["BR"].size(), 3U);
+  expect_near(lines["BR"][0], {1, 3, std::numbers::pi / 2, 2, 0.1, 0.1});
+  expect_near(lines["BR"][1], {2, 3, 0, 1, 0.1, 0.1});
+  expect_near(lines["BR"][2], {2, 4, 0, 4, 0.1, 0.1});
+}
+
+/// The squared error of the only motion in a file, by the definition that g2o and GTSAM share:
+/// e = Z^-1 (X_0^-1 X_1).
+double squared_error(const std::string& file) {
+  auto lines = parse(file);
+  const auto pose = [](const std::vector<double>& values, std::size_t first) {
+    return seif::Pose2{values.at(first), values.at(first + 1), values.at(first + 2)};
+  };
+  const std::vector<double> edge = lines["EDGE_SE2"].at(0);
+  const seif::Pose2 T = inverse(pose(lines["VERTEX_SE2"].at(0), 1)) * pose(lines["VERTEX_SE2"].at(1), 1);
+  const seif::Pose2 error = inverse(pose(edge, 2)) * T;
+  const Eigen::Vector3d e(error.x, error.y, error.theta);
+  Eigen::Matrix3d information;
+  information << edge[5], edge[6], edge[7], edge[6], edge[8], edge[9], edge[7], edge[9], edge[10];
+  return e.dot(information * e);
+}
+
+TEST(Graphs, WeighAMotionByItsCovarianceWhereItBegan) {
+  const seif::Pose2 T{2.0, 0.5, 1.0};
+  Eigen::Matrix3d Sigma;
+  Sigma << 0.04, 0.01, 0.02, 0.01, 0.09, -0.03, 0.02, -0.03, 0.16;
+  for (const Eigen::Vector3d& d : {Eigen::Vector3d(1e-5, 0, 0), Eigen::Vector3d(0, 1e-5, 0),
+                                   Eigen::Vector3d(0, 0, 1e-5), Eigen::Vector3d(2e-5, -1e-5, 1e-5)}) {
+    RecordedGraph graph;
+    graph.T_robot_sensor = {0.5, 0.2, 0.3};
+    graph.slam.motions = {{1.0, T, Sigma}};
+    const seif::Pose2 first{3.0, -1.0, 0.7};
+    graph.poses = {first, first * seif::Pose2{T.x + d.x(), T.y + d.y(), T.theta + d.z()}};
+    const double expected = d.dot(Sigma.inverse() * d);
+    EXPECT_NEAR(squared_error(to_g2o(graph)), expected, 1e-4 * expected) << d.transpose();
+    EXPECT_NEAR(squared_error(to_gtsam(graph)), expected, 1e-4 * expected) << d.transpose();
+  }
 }
 
 TEST(G2o, WhatTheEstimatorDoesNotHaveComesFromWhatWasMeasured) {

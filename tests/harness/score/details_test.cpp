@@ -144,7 +144,7 @@ TEST_F(ScoreCommand, GoesWithoutAReplayThatDoesNotComeToTheSame) {
 TEST_F(ScoreCommand, RebuildsByAReplayWhatTheFolderDoesNotHold) {
   const nlohmann::json ekf = score("")["estimators"]["ekf"];
   for (const char* key : {"nis", "nis_inside", "nees_landmark_from_robot", "nees_landmark_from_robot_final",
-                          "nees_landmark_from_robot_inside"})
+                          "nees_landmark_from_robot_inside", "nis_scan", "nis_scan_inside"})
     EXPECT_TRUE(ekf[key].is_number()) << key;
   const nlohmann::json at_every_update = score("--every-update")["estimators"]["ekf"];
   EXPECT_GT(at_every_update["nis_inside_of"], 10 * ekf["nis_inside_of"].get<int>());
@@ -169,6 +169,20 @@ TEST_F(ScoreCommand, TheReferenceIsTheOptimumThatARunWithItHas) {
   EXPECT_TRUE(reference["update_us"]["p50"].is_null()) << "the times of its guide are not its own";
   EXPECT_NE(reference["ate_rmse_m"], with_it["ate_rmse_m"]) << "the trajectory is the optimum's";
   EXPECT_LT(reference["rpe_trans_m"], with_it["rpe_trans_m"]) << "which looks ahead";
+}
+
+TEST_F(ScoreCommand, ThePeerIsAReferenceWithItsTimes) {
+  const test::Called called = test::call(folder, "score run --json --reference batch,mrpt_ekf");
+  if (called.exit_code == 2) {
+    EXPECT_NE(called.errors.find("libmrpt-slam-dev"), std::string::npos) << called.errors;
+    GTEST_SKIP() << "built without MRPT: " << called.errors;
+  }
+  const nlohmann::json estimators = nlohmann::json::parse(called.output)["estimators"];
+  ASSERT_EQ(estimators.size(), 4U);
+  const nlohmann::json& peer = estimators["mrpt_ekf"];
+  EXPECT_NEAR(peer["landmark_rmse_m"], estimators["ekf"]["landmark_rmse_m"], 1e-4);
+  EXPECT_NEAR(peer["nis_scan"], estimators["ekf"]["nis_scan"], 1e-3);
+  EXPECT_GT(peer["update_us"]["p50"], 0.0);
 }
 
 TEST_F(ScoreCommand, TheReferenceNeedsItsName) {

@@ -32,6 +32,23 @@ TEST(PairsApart, OfEqualValuesTheFirstCounts) {
   EXPECT_EQ(pairs_apart(at_the_end, 1.0), (Pairs{{0, 1}}));
 }
 
+// chi-square quantiles, 2.5 % and 97.5 %: of 2 degrees 0.0506 and 7.378, of 4 0.4844 and 11.143, of 6 1.2373
+// and 14.449.
+TEST(ScoreScans, EachScanHasItsDegreesOfFreedom) {
+  const std::vector<ScanNis> scans = {{3.0, 2}, {3.0, 4}};  // 6 of 7.378, but 12 of 11.143
+  const ScanNisScore score = score_scans(scans);
+  EXPECT_NEAR(*score.nis, (3.0 * 2 + 3.0 * 4) / 6, rounding);
+  EXPECT_EQ(score.inside, 0.5);
+  EXPECT_EQ(score.count, 2U);
+  EXPECT_NEAR(score.band->low, 1.2373 / 6, 1e-4);
+  EXPECT_NEAR(score.band->high, 14.449 / 6, 1e-4);
+}
+
+TEST(ScoreScans, OfNoneAreNothing) {
+  const ScanNisScore score = score_scans({});
+  EXPECT_FALSE(score.nis || score.band || score.inside);
+}
+
 /// One metre ahead, a turn on the spot, one metre to the left; believed to be 1.1 m, and 0.9 m, and to have
 /// turned by 0.2 too little.
 std::vector<PosePair> corner() {

@@ -22,6 +22,13 @@ TEST(SweepAxis, CommasInsideBracketsAndQuotesSeparateNothing) {
   EXPECT_EQ(axis.values, (Texts{"{ekf: {}, seif: {}}", "{seif: {K: 3}}", "[1,2]", "'a,b'", "6"}));
 }
 
+TEST(ShortPaths, AreTheLastKeysWhereThoseDiffer) {
+  EXPECT_EQ(short_paths(example()), (Texts{"b", "c"}));
+  SweepPlan plan = example();
+  plan.axes.push_back({"d.b", {"1"}});
+  EXPECT_EQ(short_paths(plan), (Texts{"a.b", "c", "d.b"}));
+}
+
 TEST(SweepAxis, SaysWhatIsWrongAndWhatWasMeant) {
   for (const auto& [text, reason] :
        std::vector<std::pair<const char*, const char*>>{{"a.b", "no path and values"},

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -89,6 +90,33 @@ TEST(SweepCommand, ARunOfItIsTheRunOfThatSeed) {
   const std::size_t row = runs.find("\n10,6,3,seif_report,,");
   ASSERT_NE(row, std::string::npos);
   EXPECT_NE(runs.substr(row, runs.find('\n', row + 1) - row).find(hash), std::string::npos) << hash;
+}
+
+/// Without what a clock has measured.
+nlohmann::json without_times(nlohmann::json summary) {
+  summary.erase("realtime_factor");
+  for (nlohmann::json& estimator : summary["estimators"]) {
+    for (const char* key : {"update_us", "stage_us"}) estimator.erase(key);
+  }
+  return summary;
+}
+
+TEST(SweepCommand, ACellSaysOfItsRunAllThatScoreSays) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::string settings = " --set duration_s=20 --set scoring.landmark_sample=7 ";
+  call(folder, "sweep world.yaml --seeds 3 --out sweep --quiet" + settings);
+  call(folder, "run world.yaml --seed 3 --out run --quiet" + settings);
+  const nlohmann::json cell = nlohmann::json::parse(read_file(folder / "sweep" / "cells" / "000000.json"));
+  const nlohmann::json score = nlohmann::json::parse(call(folder, "score run --json").output);
+  EXPECT_GT(cell["estimators"]["ekf"]["nis_scan_inside_of"], 0);
+  EXPECT_TRUE(cell["estimators"]["ekf"]["nees_landmark_from_robot"].is_number());
+  EXPECT_EQ(without_times(cell), without_times(score));
+  const std::string header = read_file(folder / "sweep" / "runs.csv");
+  for (const char* column :
+       {",landmarks_missed,", ",landmarks_duplicate,", ",nis_scan,", ",loop_closures,",
+        ",nees_landmark_from_robot_final,", ",rpe_along_path_5_trans_m,", ",loop_closure_error_m_10,"})
+    EXPECT_NE(header.find(column), std::string::npos) << column;
 }
 
 TEST(SweepCommand, ShardsInAnyOrderMergeToTheWhole) {

@@ -1,0 +1,53 @@
+// MRPT's range-bearing EKF-SLAM on our stream: a peer that is not ours.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "harness/peers/mrpt_filter.hpp"
+#include "seif/estimator.hpp"
+#include "seif/landmark_index.hpp"
+#include "seif/registry.hpp"
+
+namespace harness {
+
+/// Has the stream's own covariances of the motions, and as its one measurement noise for a scan the mean of
+/// the variances that come with it. It takes in motions with the next scan that sees a landmark; until then
+/// they are added here. It counts no blocks.
+class MrptEkf final : public seif::Estimator {
+ public:
+  explicit MrptEkf(std::unique_ptr<peers::MrptFilter> filter) : filter_(std::move(filter)) {}
+
+  void motion_update(const seif::Odometry& odometry) override;
+  void measurement_update(const seif::Scan& scan, const seif::StageDone& done) override;
+  seif::Pose2 pose() const override;
+  std::optional<Eigen::Matrix3d> pose_covariance() const override;
+  seif::Counts counts() const override;
+  std::size_t memory_bytes() const override;
+  std::vector<seif::LandmarkEstimate> map() const override;
+  std::optional<seif::MarginalCovariances> marginal_covariances(
+      std::span<const seif::LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const seif::LandmarkIds> groups) const override;
+
+ private:
+  seif::Pose2 last_pose() const;  // at the last scan that saw a landmark
+  int row_of(seif::LandmarkId landmark) const { return 3 + 2 * index_.find(landmark).value(); }
+  Eigen::MatrixXd covariance(const std::vector<int>& rows) const;
+
+  std::unique_ptr<peers::MrptFilter> filter_;
+  seif::Odometry since_;               // the motion that it has not taken in yet
+  std::vector<seif::LandmarkId> ids_;  // by their places in its state
+  seif::LandmarkIndex index_;
+  std::vector<peers::Sighting> seen_;  // reused from scan to scan
+};
+
+/// Where the build puts the module with MRPT in it.
+std::filesystem::path peers_module();
+
+/// `mrpt_ekf`, which can be made where the module is; where it is not, that throws BadInput.
+seif::EstimatorType mrpt_ekf_estimator(const std::filesystem::path& module = peers_module());
+
+}  // namespace harness

@@ -1,0 +1,52 @@
+// MRPT's range-bearing EKF-SLAM behind an interface of plain numbers: it stands in a module of its own,
+// compiled with other flags than the program that loads it.
+#pragma once
+
+#include <array>
+#include <span>
+
+namespace peers {
+
+/// A pose, or a motion from the pose before.
+struct Gaussian {
+  std::array<double, 3> mean = {};        // x y theta [m, m, rad]
+  std::array<double, 9> covariance = {};  // (3 x 3) [m, rad]
+};
+
+struct Sighting {
+  int landmark = 0;
+  double range = 0.0;    // [m]
+  double bearing = 0.0;  // [rad]
+};
+
+/// MRPT takes one measurement noise for all.
+struct SensorNoise {
+  double range_sd = 0.0;    // [m]
+  double bearing_sd = 0.0;  // [rad]
+};
+
+struct MrptSetup {
+  Gaussian start;                              // T_world_robot
+  std::array<double, 3> sensor_on_robot = {};  // T_robot_sensor: x y theta [m, m, rad]
+  bool one_scalar_at_once = false;             // kfEKFAlaDavison in the place of kfEKFNaive
+};
+
+/// The state is [x y theta m1x m1y ...], in the order in which the landmarks joined it.
+class MrptFilter {
+ public:
+  virtual ~MrptFilter() = default;
+
+  /// The motion since the last update, and what was seen after it: at least one landmark.
+  virtual void update(const Gaussian& motion, std::span<const Sighting> seen, const SensorNoise& noise) = 0;
+
+  virtual std::span<const double> mean() const = 0;
+  virtual double covariance(int row, int column) const = 0;
+
+  /// The number of the landmark at a place, from 0.
+  virtual int landmark_at(int place) const = 0;
+};
+
+}  // namespace peers
+
+/// What the module exports; the caller owns it.
+extern "C" peers::MrptFilter* seifbed_make_mrpt_filter(const peers::MrptSetup& setup);
