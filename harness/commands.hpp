@@ -49,6 +49,9 @@ struct OutputArguments {
   bool quiet = false;
 };
 
+/// --format, --robot, --truth and --noise.
+void add_log_options(CLI::App& command, LogChoice& log);
+
 /// `folder` is what --out is by default, for the help.
 void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder);
 

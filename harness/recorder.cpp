@@ -106,7 +106,9 @@ void Recorder::scan(const ScanEvent& event) {
 }
 
 void Recorder::observation(double t, const seif::Observation& observation) {
-  observations_.value(t).value(std::int64_t{observation.landmark});
+  observations_.value(t);
+  observation.landmark == seif::no_landmark ? observations_.empty()
+                                            : observations_.value(std::int64_t{observation.landmark});
   observations_.value(observation.range).value(observation.bearing);
   write_covariance(observations_, observation.covariance);
   observations_.end_row();

@@ -118,7 +118,7 @@ std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, cons
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
   std::vector<PosePair> poses;
   if (!std::filesystem::exists(folder / "truth.csv")) return poses;
-  TruthReader truth(folder / "truth.csv");
+  TruthReader truth(folder);
   for (const TimedPose& pose : read_trajectory(folder, name)) {
     const std::optional<TruePose> true_pose = truth.at(pose.t);
     if (true_pose) poses.push_back({pose.t, pose.T_world_robot, true_pose->T_world_robot});

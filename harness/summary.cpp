@@ -81,6 +81,8 @@ Summary parse_summary(std::istream& text) {
   summary.trajectory_hash = json.at("trajectory_hash");
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
+  for (const auto& [name, count] : json.value("log", Json::object()).items())
+    summary.log_counts.emplace_back(name, count.get<std::int64_t>());
   for (const auto& [name, score] : json.at("estimators").items()) {
     summary.score.estimators.emplace_back().name = name;
     const Json& failure = score.at("failure");
@@ -114,6 +116,9 @@ std::string to_json(const Summary& summary) {
   json["trajectory_hash"] = summary.trajectory_hash;
   json["realtime_factor"] = number(summary.realtime_factor);
   json["rpe_interval_s"] = number(summary.rpe_interval);
+  if (!summary.log_counts.empty()) {
+    for (const auto& [name, count] : summary.log_counts) json["log"][name] = count;
+  }
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();
