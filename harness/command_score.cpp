@@ -47,6 +47,17 @@ std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const 
   }
 }
 
+/// What a reader of the tables should know of a log that does not tell the truth.
+std::string without_truth(const std::filesystem::path& run) {
+  const bool poses = std::filesystem::exists(run / "truth.csv");
+  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
+  if (poses && landmarks) return "";
+  return fmt::format(
+      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
+      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
+      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
+}
+
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
@@ -61,13 +72,17 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   RunDetails details = score_details(folder, names, choices);
   for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
   if (!arguments.reference.empty()) {
-    const ReferenceScore reference = score_batch(folder, summary, arguments.details, registry);
+    const ReferenceScore reference =
+        score_reference(arguments.reference, folder, summary, arguments.details, registry);
+    details.reference = arguments.reference;
+    for (EstimatorDetails& estimator : details.estimators)
+      estimator.from_reference = distance_from_reference(folder, estimator.name, reference.estimate);
     summary.score.estimators.push_back(reference.score);
     summary.failures.emplace_back();
     details.estimators.push_back(reference.details);
   }
   if (arguments.json) return print_all(to_json(summary, details), 0);
-  return print_all(scoreboard(summary) + '\n' + details_board(details), 0);
+  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), 0);
 }
 
 }  // namespace
@@ -96,9 +111,11 @@ void add_score(CommandLine line) {
           "How long a landmark was out of sight when seeing it again closes a loop [s]; 20 by default")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--reference", arguments->reference,
-                   "batch: a row with the least-squares optimum of all that was measured")
-      ->check(CLI::IsMember({"batch"}));
+      ->add_option(
+          "--reference", arguments->reference,
+          "A row with the least-squares optimum of all that was measured, and how far the others are "
+          "from it: batch, or robust_batch, which trusts outliers less")
+      ->check(CLI::IsMember(reference_names()));
   CLI::Option* every_update =
       command->add_flag("--every-update", arguments->every_update,
                         "Take NEES and NIS at every update, and not at the scoring times alone");

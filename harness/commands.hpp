@@ -23,6 +23,7 @@ struct CommandLine {
 
 void add_run(CommandLine line);
 void add_replay(CommandLine line);
+void add_calibrate(CommandLine line);
 void add_score(CommandLine line);
 void add_export(CommandLine line);
 void add_film(CommandLine line);

@@ -16,12 +16,11 @@ namespace harness {
 
 namespace {
 
-const std::string name = "batch";
-
 constexpr double never = 1e300;  // [s] but at the end
 
 /// The optimum's poses in the place of those that its guide had on the way.
-void write_trajectory(const std::filesystem::path& folder, const Believers& believers) {
+void write_trajectory(const std::filesystem::path& folder, const std::string& name,
+                      const Believers& believers) {
   const LiveEstimator& estimator = believers.estimators.front();
   if (!estimator.failure.empty())
     throw std::runtime_error(fmt::format("{} failed {}", name, estimator.failure));
@@ -33,28 +32,41 @@ void write_trajectory(const std::filesystem::path& folder, const Believers& beli
   file.close();
 }
 
+std::string settings_of(const std::string& name) {
+  return fmt::format("estimators.{}={{type: batch, robust_above: {}}}", name, name == "robust_batch" ? 3 : 0);
+}
+
 void leave_out_costs(EstimatorScore& score) {
   score.update_us.reset();
   score.stage_us = {};
   score.blocks_touched.reset();
   score.mean_residual.reset();
-  for (auto* count :
-       {&score.links, &score.links_max, &score.relocations, &score.active_max, &score.memory_bytes})
+  for (auto* count : {&score.links, &score.links_max, &score.relocations, &score.gated, &score.active_max,
+                      &score.memory_bytes})
     count->reset();
   score.anchoring.reset();
 }
 
 }  // namespace
 
-ReferenceScore score_batch(const std::filesystem::path& run, const Summary& summary,
-                           const DetailChoices& choices, const seif::Registry& registry) {
+std::vector<std::string> reference_names() { return {"batch", "robust_batch"}; }
+
+ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
+                               const Summary& summary, const DetailChoices& choices,
+                               const seif::Registry& registry) {
   if (std::ranges::find(summary.score.estimators, name, &EstimatorScore::name) !=
       summary.score.estimators.end())
     throw BadInput(fmt::format("--reference {}: the run has an estimator of this name", name));
   const TemporaryFolder folder;
-  const std::vector<RebuiltScore> rebuilt =
-      rebuild({run, folder.path(), {name}, never, true}, summary, registry,
-              [&](const Believers& believers) { write_trajectory(folder.path(), believers); });
+  const std::vector<RebuiltScore> rebuilt = rebuild({.run = run,
+                                                     .to = folder.path(),
+                                                     .estimators = {name},
+                                                     .interval = never,
+                                                     .overrides = {settings_of(name)},
+                                                     .is_other = true},
+                                                    summary, registry, [&](const Believers& believers) {
+                                                      write_trajectory(folder.path(), name, believers);
+                                                    });
   DetailChoices of_the_replay = choices;
   of_the_replay.consistency.clear();
   ReferenceScore reference;
@@ -62,6 +74,10 @@ ReferenceScore score_batch(const std::filesystem::path& run, const Summary& summ
   reference.details = score_details(folder.path(), {{name}}, of_the_replay).estimators.front();
   reference.details.rebuilt = rebuilt.front();
   leave_out_costs(reference.score);
+  for (const MapRecord& landmark : read_map(folder.path(), name))
+    reference.estimate.map.push_back({landmark.landmark, landmark.mean, 0.0});
+  std::ranges::sort(reference.estimate.map, {}, &TrueLandmark::landmark);
+  reference.estimate.trajectory = read_trajectory(folder.path(), name);
   return reference;
 }
 

@@ -34,7 +34,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
       folder / (score.name + "_steps.csv"),
       {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
         "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
-       {}});
+       {"gated"}});
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
   while (rows.next()) {
@@ -44,6 +44,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
     score.relocations = rows.integer(13, 0, most);
     if (!rows.is_empty(14)) mean_residuals.push_back(rows.number(14));
     if (!rows.is_empty(15)) score.anchoring = rows.number(15);
+    if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
   }
   score.blocks_touched = percentiles(blocks_touched);

@@ -61,6 +61,7 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links"] = count(score.links);
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
+  json["gated"] = count(score.gated);
   json["mean_residual"] = percentiles(score.mean_residual);
   json["anchoring_nat"] = number(score.anchoring);
   json["active_max"] = count(score.active_max);
@@ -81,7 +82,8 @@ Summary parse_summary(std::istream& text) {
   summary.trajectory_hash = json.at("trajectory_hash");
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
-  for (const auto& [name, count] : json.value("log", Json::object()).items())
+  const Json log = json.value("log", Json::object());
+  for (const auto& [name, count] : log.items())
     summary.log_counts.emplace_back(name, count.get<std::int64_t>());
   for (const auto& [name, score] : json.at("estimators").items()) {
     summary.score.estimators.emplace_back().name = name;

@@ -37,7 +37,8 @@ Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size
   if (is_square_root) Omega = upper.transpose() * upper;
   const Eigen::LLT<Matrix> llt(Omega);
   if (llt.info() != Eigen::Success) rows.fail(cell, "information: is not positive definite");
-  const Matrix covariance = llt.solve(Matrix::Identity());
+  Matrix covariance = llt.solve(Matrix::Identity());
+  covariance = (0.5 * (covariance + covariance.transpose())).eval();
   if (!covariance.allFinite()) rows.fail(cell, "information: has no inverse");
   return covariance;
 }
@@ -55,8 +56,9 @@ seif::Observation observation_of(const GraphEdge& edge) {
   const double s = std::sin(bearing);
   Eigen::Matrix2d J_z_wrt_point;
   J_z_wrt_point << c, s, -s / lever, c / lever;
+  const Eigen::Matrix2d covariance = J_z_wrt_point * edge.point_covariance * J_z_wrt_point.transpose();
   return {static_cast<seif::LandmarkId>(edge.to), range, bearing,
-          J_z_wrt_point * edge.point_covariance * J_z_wrt_point.transpose()};
+          0.5 * (covariance + covariance.transpose())};
 }
 
 }  // namespace
