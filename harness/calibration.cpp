@@ -22,6 +22,8 @@ constexpr double outlier_probability = 0.01;
 /// [1/(m rad)] of an outlier: a range of up to 10 m, any bearing.
 constexpr double outlier_density = 1.0 / (10.0 * 2.0 * std::numbers::pi);
 
+constexpr double smallest_sd = 1e-4;  // [m, rad] of a search; a sensor has some error
+
 using Parameters = Eigen::VectorXd;  // logarithms of those standard deviations that are not zero
 
 /// What a log says about the noise: the log-likelihood of each scan.
@@ -116,7 +118,7 @@ class Search {
   NoiseValues values_at(const Parameters& x) const {
     NoiseValues values = values_;
     for (std::size_t i = 0; i < free_.size(); ++i)
-      values[free_[i]] = std::exp(x(static_cast<Eigen::Index>(i)));
+      values[free_[i]] = std::max(smallest_sd, std::exp(x(static_cast<Eigen::Index>(i))));
     return values;
   }
 
@@ -233,21 +235,26 @@ CalibrationLog read_for_calibration(RecordedLog& log) {
         fmt::format("{}: to calibrate, the log must hold the true landmarks, and observations that "
                     "name them",
                     description.name));
-  CalibrationLog result{.start = description.start, .T_robot_sensor = description.T_robot_sensor};
+  CalibrationLog result;
+  result.start = description.start;
+  result.T_robot_sensor = description.T_robot_sensor;
   for (Event event; log.next(event);) {
+    CalibrationLog::Event kept;
     if (const auto* odometry = std::get_if<OdometryEvent>(&event)) {
-      result.events.push_back(
-          {.is_motion = true, .T_previous_current = odometry->odometry.T_previous_current});
+      kept.is_motion = true;
+      kept.T_previous_current = odometry->odometry.T_previous_current;
+      result.events.push_back(kept);
       continue;
     }
-    bool begins_scan = true;
+    kept.begins_scan = true;
     for (const seif::Observation& observation : std::get<ScanEvent>(event).scan.observations) {
       const auto truth =
           std::ranges::lower_bound(*description.landmarks, observation.landmark, {}, &TrueLandmark::landmark);
       if (truth == description.landmarks->end() || truth->landmark != observation.landmark) continue;
-      result.events.push_back({.observation = observation,
-                               .p_world_landmark = truth->position,
-                               .begins_scan = std::exchange(begins_scan, false)});
+      kept.observation = observation;
+      kept.p_world_landmark = truth->position;
+      result.events.push_back(kept);
+      kept.begins_scan = false;
       ++result.observations;
     }
   }

@@ -52,7 +52,7 @@ bool MrclamLog::is_in(const std::filesystem::path& folder) {
 }
 
 LogNoise MrclamLog::default_noise() {
-  return {.odometry = OdometryNoise{0.05, 0.0, 0.02, 0.05}, .sensor = SensorNoise{0.1, 0.02, 0.02}};
+  return {.odometry = OdometryNoise{0.1, 0.1, 0.2, 0.2}, .sensor = SensorNoise{0.3, 0.05, 0.15}};
 }
 
 MrclamLog::MrclamLog(const std::filesystem::path& folder, int robot)

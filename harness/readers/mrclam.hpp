@@ -18,7 +18,8 @@ class MrclamLog final : public VelocityLog {
 
   static bool is_in(const std::filesystem::path& folder);
 
-  /// Fitted to dataset 6, all five robots: docs/datasets.md.
+  /// Chosen on dataset 6, all five robots: docs/datasets.md. More than each measurement errs by itself, since
+  /// the errors of one place are much the same.
   static LogNoise default_noise();
 
  protected:
