@@ -27,13 +27,15 @@ CalibrationLog drawn_log(const NoiseValues& values, unsigned seed, int steps) {
     motion.is_motion = true;
     motion.T_previous_current = moved;
     log.events.push_back(motion);
-    pose = pose * seif::Pose2{moved.x + std::sqrt(R(0, 0)) * normal(random), std::sqrt(R(1, 1)) * normal(random),
-                              moved.theta + std::sqrt(R(2, 2)) * normal(random)};
+    pose =
+        pose * seif::Pose2{moved.x + std::sqrt(R(0, 0)) * normal(random), std::sqrt(R(1, 1)) * normal(random),
+                           moved.theta + std::sqrt(R(2, 2)) * normal(random)};
     for (int i = 0; i < 4; ++i) {
       CalibrationLog::Event seen;
       const double angle = 1.7 * (4 * step + i);
-      seen.p_world_landmark = Eigen::Vector2d(pose.x, pose.y) +
-                              (2.0 + 6.0 * std::abs(std::sin(angle))) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      seen.p_world_landmark =
+          Eigen::Vector2d(pose.x, pose.y) +
+          (2.0 + 6.0 * std::abs(std::sin(angle))) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       const Eigen::Vector2d z = seif::predict_observation(pose, {}, seen.p_world_landmark).z;
       const Eigen::Matrix2d Q = covariance(*noise.sensor, z(0));
       seen.observation.range = z(0) + std::sqrt(Q(0, 0)) * normal(random);
@@ -90,8 +92,8 @@ TEST(Calibrate, ReturnsTheNoiseOfASimulatedWorld) {
   test::run_live(world, folder.path());
   LogStream log(folder.path());
   const Calibration found = calibrate({read_for_calibration(log)}, guess);
-  const double range_sd = world.sensors.landmarks.range_sd;
-  const double bearing_sd = world.sensors.landmarks.bearing_sd;
+  const double range_sd = world.landmark_sensor.range_sd;
+  const double bearing_sd = world.landmark_sensor.bearing_sd;
   EXPECT_LT(std::abs(found.values[4] - range_sd), 3.0 * found.standard_errors[4]);
   EXPECT_LT(std::abs(found.values[6] - bearing_sd), 3.0 * found.standard_errors[6]);
 }

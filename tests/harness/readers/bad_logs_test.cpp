@@ -4,7 +4,7 @@
 #include <random>
 
 #include "../fixtures.hpp"
-#include "readers/logs.hpp"
+#include "logs.hpp"
 
 namespace harness {
 namespace {
@@ -86,7 +86,9 @@ TEST_P(BadLogs, AreRefusedWithFileLineColumnAndReason) {
 /// Some bytes of a text changed, taken out or doubled.
 std::string mutated(std::string text, std::mt19937& random) {
   const std::string bytes = "0123456789.-+e naif\n\t#,:EL\xff";
-  const auto pick = [&](std::size_t size) { return std::uniform_int_distribution<std::size_t>(0, size - 1)(random); };
+  const auto pick = [&](std::size_t size) {
+    return std::uniform_int_distribution<std::size_t>(0, size - 1)(random);
+  };
   for (std::size_t change = 0, changes = 1 + pick(4); change < changes && !text.empty(); ++change) {
     const std::size_t at = pick(text.size());
     switch (pick(4)) {
@@ -110,8 +112,7 @@ TEST(BadLogs, NoMutationOfALogDoesMoreThanBeRefused) {
   std::mt19937 random(8);
   int refused = 0;
   int taken = 0;
-  for (const auto& files_of :
-       {mrclam_files, isam_files, g2o_files, freiburg_files, victoria_park_files}) {
+  for (const auto& files_of : {mrclam_files, isam_files, g2o_files, freiburg_files, victoria_park_files}) {
     for (int round = 0; round < 200; ++round) {
       const TemporaryFolder folder;
       Files files = files_of();

@@ -1,22 +1,24 @@
-#include "readers/logs.hpp"
+#include "logs.hpp"
 
 #include "../fixtures.hpp"
 
 namespace harness::test {
 
 Files mrclam_files() {
-  return {{"Barcodes.dat", "# Subject #    Barcode #\n 1 \t 5\n 2 \t 14\n 6 \t 63\n 7 \t 81\n"},
-          {"Landmark_Groundtruth.dat", "# x y\n 6 \t 3.0 \t 1.0 \t 0.001 \t 0.001\n 7  3.0  -1.0  0.001  0.001\n"},
-          {"Robot2_Odometry.dat",
-           "# Time v omega\n1000.000 \t 1.0 \t 0.0\n1000.500  1.0  0.0\n1001.000  0.0  0.0\n1001.400  0.0  "
-           "0.5\n1002.400  0.0  0.0\n"},
-          {"Robot2_Measurement.dat",
-           "# Time barcode range bearing\n999.9  63  3.1  0.3\n1000.250  63  2.9  0.35\n1000.250  81  2.9  "
-           "-0.35\n1000.250  5  1.0  0.0\n1000.250  99  1.0  0.0\n1001.900  81  2.2  -0.7\n1003.0  81  2.2  "
-           "-0.9\n"},
-          {"Robot2_Groundtruth.dat",
-           "# Time x y theta\n999.900 -0.1 0 0\n1000.000 0 0 0\n1000.100 0.1 0 0\n1000.400 0.4 0 0\n1001.000 1 0 "
-           "0\n1001.400 1 0 0\n1001.700 1 0 0.15\n1002.100 1 0 0.35\n1002.400 1 0 0.5\n"}};
+  return {
+      {"Barcodes.dat", "# Subject #    Barcode #\n 1 \t 5\n 2 \t 14\n 6 \t 63\n 7 \t 81\n"},
+      {"Landmark_Groundtruth.dat",
+       "# x y\n 6 \t 3.0 \t 1.0 \t 0.001 \t 0.001\n 7  3.0  -1.0  0.001  0.001\n"},
+      {"Robot2_Odometry.dat",
+       "# Time v omega\n1000.000 \t 1.0 \t 0.0\n1000.500  1.0  0.0\n1001.000  0.0  0.0\n1001.400  0.0  "
+       "0.5\n1002.400  0.0  0.0\n"},
+      {"Robot2_Measurement.dat",
+       "# Time barcode range bearing\n999.9  63  3.1  0.3\n1000.250  63  2.9  0.35\n1000.250  81  2.9  "
+       "-0.35\n1000.250  5  1.0  0.0\n1000.250  99  1.0  0.0\n1001.900  81  2.2  -0.7\n1003.0  81  2.2  "
+       "-0.9\n"},
+      {"Robot2_Groundtruth.dat",
+       "# Time x y theta\n999.900 -0.1 0 0\n1000.000 0 0 0\n1000.100 0.1 0 0\n1000.400 0.4 0 0\n1001.000 1 0 "
+       "0\n1001.400 1 0 0\n1001.700 1 0 0.15\n1002.100 1 0 0.35\n1002.400 1 0 0.5\n"}};
 }
 
 Files isam_files() {

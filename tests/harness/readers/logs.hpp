@@ -13,8 +13,8 @@ namespace harness::test {
 /// File names and what stands in them.
 using Files = std::map<std::string, std::string>;
 
-/// Robot 2 drives ahead for a second, stands, and turns on the spot; it sees landmarks 6 and 7, robot 1, and a
-/// barcode that nobody bears.
+/// Robot 2 drives ahead for a second, stands, and turns on the spot; it sees landmarks 6 and 7, robot 1, and
+/// a barcode that nobody bears.
 Files mrclam_files();
 
 /// Three motions of a metre, landmark 10 seen from poses 0 and 2, landmark 11 from pose 5.

@@ -5,7 +5,7 @@
 
 #include "../fixtures.hpp"
 #include "harness/readers/victoria_park.hpp"
-#include "readers/logs.hpp"
+#include "logs.hpp"
 
 namespace harness {
 namespace {
@@ -54,8 +54,9 @@ TEST(MrclamLog, CountsNonsenseAndGoesOn) {
   const TemporaryFolder folder;
   Files files = mrclam_files();
   files["Robot2_Odometry.dat"] += "1001.0 1 1\n1002.5 nan 0\n";
-  files["Robot2_Measurement.dat"] = "1000.25 63 2.9 0.35\n1000.25 63 2.9 0.35\n1000.25 81 -1 0\n1000.1 81 1 0\n"
-                                    "1000.5 81 inf 0\n";
+  files["Robot2_Measurement.dat"] =
+      "1000.25 63 2.9 0.35\n1000.25 63 2.9 0.35\n1000.25 81 -1 0\n1000.1 81 1 0\n"
+      "1000.5 81 inf 0\n";
   const auto log = open(folder, files, {.robot = 2});
   read_all(*log);
   EXPECT_EQ(log->counts().not_finite, 2);

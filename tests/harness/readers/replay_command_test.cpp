@@ -5,7 +5,7 @@
 
 #include "../command_call.hpp"
 #include "../fixtures.hpp"
-#include "readers/logs.hpp"
+#include "logs.hpp"
 
 namespace harness {
 namespace {
@@ -20,7 +20,8 @@ TEST(ReplayOfOtherLogs, WritesARunFolderThatScoresAndExports) {
   EXPECT_EQ(score.exit_code, 0) << score.errors;
   EXPECT_EQ(score.errors, "");  // it replays to the same estimates, from replay.yaml
   EXPECT_NE(score.output.find("from batch"), std::string::npos);
-  EXPECT_NE(score.output.find("The log holds no truth of the poses, nor of the landmarks"), std::string::npos);
+  EXPECT_NE(score.output.find("The log holds no truth of the poses, nor of the landmarks"),
+            std::string::npos);
   EXPECT_NE(read_file(folder / "run" / "replay.yaml").find("gate: 50"), std::string::npos);
   ASSERT_EQ(call(folder, "export run --format g2o > again.g2o").exit_code, 0);
   const Called again = call(folder, "replay again.g2o --out again");
