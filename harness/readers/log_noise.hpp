@@ -32,8 +32,8 @@ Eigen::Matrix3d covariance(const OdometryNoise& noise, const seif::Pose2& T_prev
 
 /// What the command line says about it: a file, and `noise.key=value`, which wins.
 struct NoiseChoices {
-  std::filesystem::path file;  // empty: none
-  std::vector<std::string> overrides;
+  std::filesystem::path file = {};  // empty: none
+  std::vector<std::string> overrides = {};
 
   bool empty() const { return file.empty() && overrides.empty(); }
 };

@@ -21,7 +21,7 @@ enum class LogFormat {
 
 /// A log, as the command line says it.
 struct LogChoice {
-  std::filesystem::path path;
+  std::filesystem::path path = {};
   std::string format = {};                          // empty: told by the content
   std::optional<int> robot = {};                    // of MRCLAM; 1 if left out
   std::optional<std::filesystem::path> truth = {};  // of graphs: the same graph without noise

@@ -87,6 +87,8 @@ TEST(Calibrate, ReturnsTheNoiseOfASimulatedWorld) {
   worlds::World world = test::small_world();
   world.physics.engine = worlds::Engine::kinematic;
   world.duration = 200.0;
+  world.encoders.calibrated = true;
+  world.encoders.ticks_per_revolution = 0;
   world.estimators.clear();
   const TemporaryFolder folder;
   test::run_live(world, folder.path());
@@ -94,6 +96,11 @@ TEST(Calibrate, ReturnsTheNoiseOfASimulatedWorld) {
   const Calibration found = calibrate({read_for_calibration(log)}, guess);
   const double range_sd = world.landmark_sensor.range_sd;
   const double bearing_sd = world.landmark_sensor.bearing_sd;
+  // Wheels that err by k sqrt(s) each: the way by k / sqrt(2), the heading by sqrt(2) k / track.
+  const double k = world.encoders.distance_sd;
+  EXPECT_LT(std::abs(found.values[0] - k / std::sqrt(2.0)), 3.0 * found.standard_errors[0]);
+  EXPECT_LT(std::abs(found.values[2] - k * std::sqrt(2.0) / world.robot.track),
+            3.0 * found.standard_errors[2]);
   EXPECT_LT(std::abs(found.values[4] - range_sd), 3.0 * found.standard_errors[4]);
   EXPECT_LT(std::abs(found.values[6] - bearing_sd), 3.0 * found.standard_errors[6]);
 }

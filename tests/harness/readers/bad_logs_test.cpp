@@ -1,9 +1,11 @@
 // Logs that are broken: a complaint that says where, and never a crash.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "../fixtures.hpp"
+#include "harness/row_reader.hpp"
 #include "logs.hpp"
 
 namespace harness {

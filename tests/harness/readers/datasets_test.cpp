@@ -12,13 +12,17 @@
 namespace harness {
 namespace {
 
-/// The folder of a data set; skips the test where there is none.
-#define DATASET(path)                                                                            \
-  [] {                                                                                           \
-    const char* folder = std::getenv("SEIFBED_DATASETS");                                        \
-    return folder == nullptr ? std::filesystem::path() : std::filesystem::path(folder) / (path); \
-  }();                                                                                           \
-  if (std::getenv("SEIFBED_DATASETS") == nullptr) GTEST_SKIP() << "SEIFBED_DATASETS is not set"
+/// Where the data sets are; skips the test where nobody says so.
+class Datasets : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* named = std::getenv("SEIFBED_DATASETS");
+    if (named == nullptr) GTEST_SKIP() << "SEIFBED_DATASETS is not set";
+    folder_ = named;
+  }
+
+  std::filesystem::path folder_;
+};
 
 struct Replayed {
   Summary summary;
@@ -58,17 +62,21 @@ struct MrclamRun {
   int robot;
 };
 
-class Mrclam : public testing::TestWithParam<MrclamRun> {};
+class VictoriaParkGraph : public Datasets {};
+class CityTrees : public Datasets {};
+class FreiburgCourse : public Datasets {};
+class FreiburgGraph : public Datasets {};
+class Mrclam : public Datasets, public testing::WithParamInterface<MrclamRun> {};
 INSTANTIATE_TEST_SUITE_P(Robots, Mrclam,
                          testing::Values(MrclamRun{"MRCLAM_Dataset6", 1}, MrclamRun{"MRCLAM_Dataset6", 2},
                                          MrclamRun{"MRCLAM_Dataset6", 3}, MrclamRun{"MRCLAM_Dataset6", 4},
                                          MrclamRun{"MRCLAM_Dataset6", 5}, MrclamRun{"MRCLAM_Dataset4", 3}),
-                         [](const auto& info) {
-                           return info.param.folder + "Robot" + std::to_string(info.param.robot);
+                         [](const auto& run) {
+                           return run.param.folder + "Robot" + std::to_string(run.param.robot);
                          });
 
 TEST_P(Mrclam, SeifIsAsGoodAsTheEkfAndNearTheOptimum) {
-  const std::filesystem::path folder = DATASET("mrclam");
+  const std::filesystem::path folder = folder_ / "mrclam";
   const Replayed run =
       replay_with({.path = folder / GetParam().folder, .robot = GetParam().robot}, "robust_batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 15);
@@ -78,16 +86,16 @@ TEST_P(Mrclam, SeifIsAsGoodAsTheEkfAndNearTheOptimum) {
   EXPECT_LT(*run.seif.gated, run.summary.updates / 100);
 }
 
-TEST(VictoriaParkGraph, SeifIsNoFartherFromTheOptimumThanTheEkf) {
-  const std::filesystem::path folder = DATASET("victoria_park");
+TEST_F(VictoriaParkGraph, SeifIsNoFartherFromTheOptimumThanTheEkf) {
+  const std::filesystem::path folder = folder_ / "victoria_park";
   const Replayed run = replay_with({.path = folder / "isam_victoriaPark.txt"}, "batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 151);
   EXPECT_FALSE(run.seif.landmarks.rmse);  // nobody knows the truth
   EXPECT_LE(*run.seif_from_batch.landmarks.rmse_aligned, *run.ekf_from_batch.landmarks.rmse_aligned);
 }
 
-TEST(CityTrees, MapsAreThoseOfTheTruth) {
-  const std::filesystem::path folder = DATASET("city_trees");
+TEST_F(CityTrees, MapsAreThoseOfTheTruth) {
+  const std::filesystem::path folder = folder_ / "city_trees";
   const Replayed run = replay_with(
       {.path = folder / "cityTrees10000.txt", .truth = folder / "cityTrees10000_groundtruth.txt"}, "batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 100);
@@ -96,8 +104,8 @@ TEST(CityTrees, MapsAreThoseOfTheTruth) {
   EXPECT_LT(*run.seif.landmarks.rmse_aligned, 1.5 * *run.batch.score.landmarks.rmse_aligned);
 }
 
-TEST(FreiburgCourse, MapsAreThoseOfTheTruth) {
-  const std::filesystem::path folder = DATASET("freiburg_course");
+TEST_F(FreiburgCourse, MapsAreThoseOfTheTruth) {
+  const std::filesystem::path folder = folder_ / "freiburg_course";
   const Replayed run = replay_with({.path = folder}, "batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 9);
   EXPECT_LE(*run.seif.landmarks.rmse_aligned, 1.05 * *run.ekf.landmarks.rmse_aligned);
@@ -106,8 +114,8 @@ TEST(FreiburgCourse, MapsAreThoseOfTheTruth) {
             (std::vector<std::pair<std::string, std::int64_t>>{{"negative_ranges", 1}}));
 }
 
-TEST(FreiburgGraph, IsReadWhole) {
-  const std::filesystem::path folder = DATASET("freiburg_course");
+TEST_F(FreiburgGraph, IsReadWhole) {
+  const std::filesystem::path folder = folder_ / "freiburg_course";
   const Replayed run = replay_with({.path = folder / "simulation-pose-landmark.g2o"}, "batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 36);
   EXPECT_LE(*run.seif_from_batch.landmarks.rmse_aligned, 1.05 * *run.ekf_from_batch.landmarks.rmse_aligned);

@@ -5,6 +5,7 @@
 
 #include "../fixtures.hpp"
 #include "harness/readers/victoria_park.hpp"
+#include "harness/row_reader.hpp"
 #include "logs.hpp"
 
 namespace harness {
