@@ -5,7 +5,7 @@
 #include <iterator>
 #include <random>
 
-#include "../fixtures.hpp"
+#include "harness/fixtures.hpp"
 #include "harness/row_reader.hpp"
 #include "logs.hpp"
 

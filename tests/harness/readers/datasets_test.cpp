@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "../fixtures.hpp"
+#include "harness/fixtures.hpp"
 #include "harness/prepared_run.hpp"
 #include "harness/reference.hpp"
 #include "harness/registry.hpp"

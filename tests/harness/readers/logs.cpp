@@ -1,6 +1,6 @@
 #include "logs.hpp"
 
-#include "../fixtures.hpp"
+#include "harness/fixtures.hpp"
 
 namespace harness::test {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../fixtures.hpp"
+#include "harness/fixtures.hpp"
 #include "harness/readers/victoria_park.hpp"
 #include "harness/row_reader.hpp"
 #include "logs.hpp"

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../command_call.hpp"
-#include "../fixtures.hpp"
+#include "harness/command_call.hpp"
+#include "harness/fixtures.hpp"
 #include "logs.hpp"
 
 namespace harness {
