@@ -20,9 +20,10 @@ std::size_t bytes_of(const std::vector<T>& values) {
 
 }  // namespace
 
-Batch::Batch(const seif::EstimatorSetup& setup, std::unique_ptr<seif::Estimator> guide)
+Batch::Batch(const seif::EstimatorSetup& setup, std::unique_ptr<seif::Estimator> guide, double robust_above)
     : guide_(std::move(guide)), T_robot_sensor_(setup.T_robot_sensor) {
   slam_.start = setup.start;
+  slam_.robust_above = robust_above;
 }
 
 void Batch::motion_update(const seif::Odometry& odometry) {
@@ -136,17 +137,27 @@ seif::EstimatorType batch_estimator(const seif::Registry& registry) {
       .fallback = std::string("seif"),
       .choices = {"seif", "ekf"},
       .help = "The filter that runs along, and from whose map the optimum is sought."};
+  const seif::OptionSpec robust_above{.key = "robust_above",
+                                      .fallback = 0.0,
+                                      .min = 0.0,
+                                      .help =
+                                          "Observations that are further off than this weigh less, by "
+                                          "Cauchy's function, and the guide's gate "
+                                          "is the square of it; 0: none does [sigma]."};
   return {.name = "batch",
           .help =
               "The least-squares optimum of all poses and landmarks, solved for at scoring times: neither in "
               "constant time nor memory; what the others are measured against.",
-          .options = {guide},
-          .make = [guide, registry](const seif::EstimatorSetup& setup, const seif::Options& options) {
+          .options = {guide, robust_above},
+          .make = [guide, robust_above, registry](const seif::EstimatorSetup& setup,
+                                                  const seif::Options& options) {
             const auto* type = registry.find(seif::option<std::string>(options, guide.key));
             if (type == nullptr) throw std::invalid_argument("batch: its guide is not registered");
             seif::Options defaults;
             for (const seif::OptionSpec& spec : type->options) defaults[spec.key] = spec.fallback;
-            return std::make_unique<Batch>(setup, type->make(setup, defaults));
+            const double above = seif::option<double>(options, robust_above.key);
+            defaults["gate"] = above * above;
+            return std::make_unique<Batch>(setup, type->make(setup, defaults), above);
           }};
 }
 

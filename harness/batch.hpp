@@ -21,7 +21,8 @@ namespace harness {
 class Batch final : public seif::Estimator {
  public:
   /// `guide` is made from the same set-up, and refuses it if the start covariance is not positive definite.
-  Batch(const seif::EstimatorSetup& setup, std::unique_ptr<seif::Estimator> guide);
+  /// Sightings that are further off than `robust_above` [sigma] weigh less; 0: none does.
+  Batch(const seif::EstimatorSetup& setup, std::unique_ptr<seif::Estimator> guide, double robust_above = 0.0);
 
   void motion_update(const seif::Odometry& odometry) override;
   void measurement_update(const seif::Scan& scan, const seif::StageDone& done) override;

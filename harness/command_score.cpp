@@ -62,6 +62,17 @@ void make_whole(const std::filesystem::path& log, const std::filesystem::path& t
   execute(replay);
 }
 
+/// What a reader of the tables should know of a log that does not tell the truth.
+std::string without_truth(const std::filesystem::path& run) {
+  const bool poses = std::filesystem::exists(run / "truth.csv");
+  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
+  if (poses && landmarks) return "";
+  return fmt::format(
+      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
+      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
+      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
+}
+
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
@@ -77,12 +88,17 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
   for (const std::string& name : arguments.references) {
     const ReferenceScore reference = score_reference(name, folder, summary, arguments.details, registry);
+    if (is_optimum(name) && details.reference.empty()) {
+      details.reference = name;
+      for (EstimatorDetails& estimator : details.estimators)
+        estimator.from_reference = distance_from_reference(folder, estimator.name, reference.estimate);
+    }
     summary.score.estimators.push_back(reference.score);
     summary.failures.emplace_back();
     details.estimators.push_back(reference.details);
   }
   if (arguments.json) return print_all(to_json(summary, details), 0);
-  return print_all(scoreboard(summary) + '\n' + details_board(details), 0);
+  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), 0);
 }
 
 int score_any(ScoreArguments arguments, const seif::Registry& registry) {
@@ -123,8 +139,9 @@ void add_score(CommandLine line) {
   command
       ->add_option(
           "--reference", arguments->references,
-          "Rows of others on the same stream: batch, the least-squares optimum of all that was "
-          "measured; mrpt_ekf, MRPT's EKF-SLAM, with its times, where this program was built with it")
+          "Rows of others on the same stream: batch, the least-squares optimum of all that was measured; "
+          "robust_batch, which trusts outliers less; mrpt_ekf, MRPT's EKF-SLAM, with its times, where this "
+          "program was built with it. The first optimum also says how far the others are from it")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(std::vector<std::string>(references.begin(), references.end())));

@@ -32,6 +32,18 @@ int guarded(const std::function<int()>& command) {
   }
 }
 
+void add_log_options(CLI::App& command, LogChoice& log) {
+  command.add_option("--format", log.format, "Format of the log; by default told by its content")
+      ->check(CLI::IsMember(log_format_names()));
+  command.add_option("--robot", log.robot, "Which robot of an MRCLAM folder; 1 by default")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--truth", log.truth, "The same graph without noise, for the scores")->type_name("FILE");
+  command
+      .add_option("--noise", log.noise.file,
+                  "YAML with the noise of odometry and sensor, as seifbed calibrate prints it")
+      ->type_name("FILE");
+}
+
 void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder,
                         const std::string& printed) {
   command.add_option("--out", output.out, "Folder to write to; by default a new one, " + folder);

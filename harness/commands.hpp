@@ -23,6 +23,7 @@ struct CommandLine {
 
 void add_run(CommandLine line);
 void add_replay(CommandLine line);
+void add_calibrate(CommandLine line);
 void add_score(CommandLine line);
 void add_export(CommandLine line);
 void add_film(CommandLine line);
@@ -49,6 +50,9 @@ struct OutputArguments {
   bool json = false;
   bool quiet = false;
 };
+
+/// --format, --robot, --truth and --noise.
+void add_log_options(CLI::App& command, LogChoice& log);
 
 /// For the help: `folder` is what --out is by default, `printed` what --json prints, and instead of what.
 void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder,

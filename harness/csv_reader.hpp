@@ -3,19 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
-namespace harness {
+#include "harness/row_reader.hpp"
 
-/// Something that was given to the program is wrong. what() is a whole message: `file:line:column: reason`.
-class BadInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace harness {
 
 /// The columns that a table must have, in this order, and a group that may follow them all or not at all.
 struct Columns {
@@ -43,25 +36,13 @@ class CsvReader {
 
  private:
   CsvReader(std::filesystem::path path, Columns columns, char separator);
-  bool read_line();
-  void split();
   void read_header();
-  std::string_view cell(int column) const;
   const std::string& name(int column) const;
 
-  struct Cell {
-    std::size_t begin = 0;  // [-] offset in the line
-    std::size_t size = 0;
-  };
-
-  std::filesystem::path path_;
+  RowReader rows_;
   Columns columns_;
-  char separator_;
+  bool skips_comments_;
   bool has_optional_ = false;
-  std::ifstream file_;
-  std::int64_t line_number_ = 0;
-  std::string line_;
-  std::vector<Cell> cells_;
 };
 
 }  // namespace harness

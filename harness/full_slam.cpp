@@ -1,6 +1,7 @@
 #include "harness/full_slam.hpp"
 
 #include <ceres/crs_matrix.h>
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 #include <ceres/sized_cost_function.h>
 #include <ceres/solver.h>
@@ -130,6 +131,11 @@ struct Unknowns {
   double* landmark(int i) { return landmarks[static_cast<std::size_t>(i)].data(); }
 };
 
+/// Of a sighting: with s the squared norm of its residual, a^2 log(1 + s / a^2) instead of s.
+ceres::LossFunction* loss_of(const FullSlam& slam) {
+  return slam.robust_above > 0.0 ? new ceres::CauchyLoss(slam.robust_above) : nullptr;
+}
+
 void add_terms(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem) {
   problem.AddResidualBlock(new StartCost(slam.start), nullptr, unknowns.pose(0));
   for (int i = 0; i + 1 < slam.pose_count(); ++i) {
@@ -137,7 +143,7 @@ void add_terms(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem
                              unknowns.pose(i), unknowns.pose(i + 1));
   }
   for (const Sighting& sighting : slam.sightings) {
-    problem.AddResidualBlock(new SightingCost(sighting), nullptr, unknowns.pose(sighting.pose),
+    problem.AddResidualBlock(new SightingCost(sighting), loss_of(slam), unknowns.pose(sighting.pose),
                              unknowns.landmark(sighting.landmark));
   }
 }

@@ -25,6 +25,7 @@ struct FullSlam {
   std::vector<seif::Odometry> motions;  // from pose i to pose i + 1
   std::vector<Sighting> sightings;      // in the order of their poses
   int landmark_count = 0;
+  double robust_above = 0.0;  // [sigma] sightings that are further off weigh less (Cauchy); 0: none does
 
   int pose_count() const { return static_cast<int>(motions.size()) + 1; }
   int row_of_pose(int pose) const { return 3 * pose; }

@@ -183,6 +183,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.active_landmarks = counts.active_landmarks;
   record.links = counts.links;
   record.relocations = counts.relocations;
+  record.gated = counts.gated;
   record.mean_residual = counts.mean_residual;
   record.anchoring = counts.anchoring;
   record.times = times_[index];

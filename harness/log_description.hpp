@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct LogDescription {
   double start_t = 0.0;      // [s] where the first odometry increment begins
   seif::PoseEstimate start;  // T_world_robot then, as the robot believes
   bool known_association = true;
+  /// [s] Between true poses that are further apart there is no truth.
+  double longest_truth_gap = std::numeric_limits<double>::infinity();
 
   // What the log holds besides odometry and observations.
   bool has_truth = false;
@@ -42,5 +45,8 @@ std::string to_yaml(const LogDescription& description);
 /// Reads log.yaml. Throws BadInput with every problem in it, a line for each. What comes from other files of
 /// the log is left as it was.
 void read_yaml(const std::filesystem::path& file, LogDescription& description);
+
+/// What the log.yaml says of that; without a file, infinity. Throws BadInput.
+double longest_truth_gap(const std::filesystem::path& file);
 
 }  // namespace harness

@@ -65,48 +65,29 @@ bool is_positive_semidefinite(const Eigen::Matrix3d& covariance) {
   return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -rounding;
 }
 
-double between(double a, double b, double share) { return a + share * (b - a); }
-
-TruePose interpolate(const TruePose& a, const TruePose& b, double t) {
-  const double share = (t - a.t) / (b.t - a.t);
-  const seif::Pose2& from = a.T_world_robot;
-  const seif::Pose2& to = b.T_world_robot;
-  const double turn = seif::wrap_angle(to.theta - from.theta);
-  return {t,
-          {between(from.x, to.x, share), between(from.y, to.y, share),
-           seif::wrap_angle(from.theta + share * turn)},
-          between(a.left_wheel, b.left_wheel, share),
-          between(a.right_wheel, b.right_wheel, share)};
-}
-
 }  // namespace
 
-TruthReader::TruthReader(const std::filesystem::path& file)
-    : rows_(file, {{"t", "x", "y", "theta"}, {"left_wheel", "right_wheel"}}) {
-  advance();
-}
+TruthReader::TruthReader(const std::filesystem::path& file, double longest_gap)
+    : rows_(file, {{"t", "x", "y", "theta"}, {"left_wheel", "right_wheel"}}), track_(longest_gap) {}
 
-void TruthReader::advance() {
-  before_ = after_;
-  after_.reset();
-  if (!rows_.next()) return;
-  const double earliest = before_ ? before_->t : -std::numeric_limits<double>::infinity();
+TruthReader::TruthReader(const std::filesystem::path& folder)
+    : TruthReader(folder / "truth.csv", longest_truth_gap(folder / "log.yaml")) {}
+
+std::optional<TruePose> TruthReader::next_row() {
+  if (!rows_.next()) return std::nullopt;
   TruePose row;
-  row.t = read_time(rows_, earliest, false);
+  row.t = read_time(rows_, last_t_.value_or(-std::numeric_limits<double>::infinity()), false);
+  last_t_ = row.t;
   row.T_world_robot = {rows_.number(1), rows_.number(2), seif::wrap_angle(rows_.number(3))};
   if (rows_.has_optional()) {
     row.left_wheel = rows_.number(4);
     row.right_wheel = rows_.number(5);
   }
-  after_ = row;
+  return row;
 }
 
 std::optional<TruePose> TruthReader::at(double t) {
-  while (after_ && after_->t < t) advance();
-  if (after_ && after_->t == t) return after_;
-  if (before_ && before_->t == t) return before_;
-  if (!before_ || !after_) return std::nullopt;
-  return interpolate(*before_, *after_, t);
+  return track_.at(t, [this] { return next_row(); });
 }
 
 std::vector<TrueLandmark> read_landmarks(const std::filesystem::path& file) {
@@ -139,7 +120,7 @@ LogStream::LogStream(const std::filesystem::path& folder)
                     (folder / "log.yaml").string()));
   }
   if (std::filesystem::exists(folder / "truth.csv")) {
-    truth_.emplace(folder / "truth.csv");
+    truth_.emplace(folder / "truth.csv", description_.longest_truth_gap);
     description_.has_truth = true;
     description_.has_wheel_angles = truth_->has_wheel_angles();
     description_.true_start = truth_->at(description_.start_t);

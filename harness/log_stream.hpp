@@ -5,36 +5,38 @@
 #include <optional>
 
 #include "harness/csv_reader.hpp"
-#include "harness/log_description.hpp"
-#include "harness/stream.hpp"
+#include "harness/recorded_log.hpp"
+#include "harness/truth_track.hpp"
 
 namespace harness {
 
-/// The truth of a log at any moment, for moments that come in order: the row at that time, or between two
-/// rows linearly; the heading turns the short way. Memory for two rows.
+/// The truth of a log at any moment, for moments that come in order, as a TruthTrack of truth.csv.
 class TruthReader {
  public:
-  explicit TruthReader(const std::filesystem::path& file);
+  /// Of the log in this folder, with the longest gap that its log.yaml tells.
+  explicit TruthReader(const std::filesystem::path& folder);
+
+  TruthReader(const std::filesystem::path& file, double longest_gap);
 
   bool has_wheel_angles() const { return rows_.has_optional(); }
 
-  /// Nothing before the first row and after the last one. Throws BadInput.
+  /// Throws BadInput.
   std::optional<TruePose> at(double t);
 
  private:
-  void advance();
+  std::optional<TruePose> next_row();
 
   CsvReader rows_;
-  std::optional<TruePose> before_;
-  std::optional<TruePose> after_;  // nothing: the file has ended
+  std::optional<double> last_t_;  // [s]
+  TruthTrack track_;
 };
 
 /// Reads a log folder in bounded memory. All functions throw BadInput: `file:line:column: reason`.
-class LogStream final : public Stream {
+class LogStream final : public RecordedLog {
  public:
   explicit LogStream(const std::filesystem::path& folder);
 
-  const LogDescription& description() const { return description_; }
+  const LogDescription& description() const override { return description_; }
 
   bool next(Event& event) override;
 

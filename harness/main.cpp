@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   const harness::CommandLine line{app, registry, exit_code};
   harness::add_run(line);
   harness::add_replay(line);
+  harness::add_calibrate(line);
   harness::add_score(line);
   harness::add_export(line);
   harness::add_film(line);

@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "harness/csv_reader.hpp"
 #include "harness/csv_writer.hpp"
-#include "harness/log_stream.hpp"
+#include "harness/replay_settings.hpp"
 #include "harness/run_folder.hpp"
 #include "harness/simulated_stream.hpp"
 #include "worlds/document.hpp"
@@ -47,9 +48,18 @@ PreparedRun prepare_run(const worlds::World& world, const seif::Registry& regist
 
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry) {
+  return prepare_replay(LogChoice{.path = log}, world, registry);
+}
+
+PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry) {
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
-  set_stream(run, std::make_unique<LogStream>(log));
+  set_stream(run, open_log(log));
+  if (!run.log->known_association)
+    throw BadInput(
+        fmt::format("{}: nothing in this log says which landmark an observation is of, and the "
+                    "present estimators need that",
+                    log.path.string()));
   set_estimators(run, world, registry);
   run.plan.name = run.log->name;
   return run;
@@ -79,7 +89,8 @@ void write_world(const std::filesystem::path& folder, const worlds::World& world
 
 void write_replayed_world(const std::filesystem::path& folder, const std::filesystem::path& log,
                           const std::string& resolved) {
-  if (!std::filesystem::exists(log / "world.yaml")) return;
+  if (!std::filesystem::exists(log / "world.yaml"))
+    return write_whole_file(folder / "replay.yaml", settings_of_replay(resolved));
   write_whole_file(folder / "world.yaml", resolved);
   if (std::filesystem::exists(log / commands_file))
     std::filesystem::copy_file(log / commands_file, folder / commands_file);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "harness/readers/open_log.hpp"
 #include "harness/run.hpp"
 #include "seif/registry.hpp"
 #include "worlds/world.hpp"
@@ -22,7 +23,9 @@ struct PreparedRun {
 /// These two throw BadInput if the log cannot be read or an estimator cannot be made.
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry);
 
-/// Estimators, scoring and seed are the world's; the rest is recorded.
+/// Estimators, scoring and seed are the world's; the rest is recorded. Throws BadInput for a log whose
+/// observations do not name their landmark, too.
+PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry);
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry);
 
@@ -34,7 +37,7 @@ RunResult execute_in_passing(PreparedRun& run, RunListener* follower = nullptr);
 /// Writes world.yaml to the folder of a run, and beside it what it needs, so that it runs again from there.
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved);
 
-/// Writes world.yaml to the folder of a replay, where the log has one.
+/// Writes world.yaml to the folder of a replay, where the log has one; else replay.yaml.
 void write_replayed_world(const std::filesystem::path& folder, const std::filesystem::path& log,
                           const std::string& resolved);
 

@@ -143,7 +143,8 @@ std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& s
                                   const seif::Registry& registry,
                                   const std::function<void(const Believers&)>& look) {
   const worlds::LoadResult settings = load_replay_settings(
-      rebuilding.run, {rebuilding.estimators, {}, fmt::format("{}", summary.seed)}, registry);
+      rebuilding.run, {rebuilding.estimators, rebuilding.overrides, fmt::format("{}", summary.seed)},
+      registry);
   if (!settings.world) throw BadInput(worlds::to_string(settings.problems.front()));
   PreparedRun run = prepare_replay(rebuilding.run, *settings.world, registry);
   run.plan.folder = rebuilding.to;

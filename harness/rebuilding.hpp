@@ -61,11 +61,12 @@ class NotReplayed : public std::runtime_error {
 
 /// How a run is to be replayed.
 struct Rebuilding {
-  std::filesystem::path run;            // the folder of the run
-  std::filesystem::path to;             // an empty folder
-  std::vector<std::string> estimators;  // by their names in the run, or types
-  std::optional<double> interval = {};  // [s] between scoring times; nothing: the run's
-  bool is_other = false;                // estimators that are not the run's: nothing recorded to come to
+  std::filesystem::path run;                // the folder of the run
+  std::filesystem::path to;                 // an empty folder
+  std::vector<std::string> estimators;      // by their names in the run, or types
+  std::optional<double> interval = {};      // [s] between scoring times; nothing: the run's
+  std::vector<std::string> overrides = {};  // of the settings
+  bool is_other = false;                    // estimators that are not the run's: nothing recorded to come to
 };
 
 /// Replays a run; `look` sees the estimators as they are in the end. Throws BadInput, NotReplayed, and

@@ -63,7 +63,7 @@ Recorder::EstimatorFiles Recorder::open_estimator(const std::string& name) const
       name, CsvWriter(folder_ / (name + ".tum"), no_header, ' '),
       CsvWriter(folder_ / (name + "_steps.csv"),
                 "t,error_x,error_y,error_theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,"
-                "blocks_touched,active_landmarks,links,relocations,mean_residual,anchoring"),
+                "blocks_touched,active_landmarks,links,relocations,mean_residual,anchoring,gated"),
       CsvWriter(folder_ / (name + "_times.csv"), "t,update,motion,measurement,sparsification,mean_recovery"),
       CsvWriter(folder_ / (name + "_consistency.csv"),
                 "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes")};
@@ -106,7 +106,9 @@ void Recorder::scan(const ScanEvent& event) {
 }
 
 void Recorder::observation(double t, const seif::Observation& observation) {
-  observations_.value(t).value(std::int64_t{observation.landmark});
+  observations_.value(t);
+  observation.landmark == seif::no_landmark ? observations_.empty()
+                                            : observations_.value(std::int64_t{observation.landmark});
   observations_.value(observation.range).value(observation.bearing);
   write_covariance(observations_, observation.covariance);
   observations_.end_row();
@@ -138,7 +140,7 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
       .value(record.relocations);
   write_if_known(files.steps, record.mean_residual);
   write_if_known(files.steps, record.anchoring);
-  files.steps.end_row();
+  files.steps.value(record.gated).end_row();
 
   files.times.value(record.t).value(record.times.update);
   for (const std::optional<double>& stage : record.times.stages) write_if_known(files.times, stage);

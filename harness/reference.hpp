@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "harness/score/details.hpp"
 #include "harness/score_folder.hpp"
@@ -16,14 +17,17 @@ namespace harness {
 struct ReferenceScore {
   EstimatorScore score;  // under the name of the reference
   EstimatorDetails details;
+  ReferenceEstimate estimate;
 };
 
-/// `batch`, the optimum, and `mrpt_ekf`, a peer.
-inline constexpr std::array<std::string_view, 2> references = {"batch", "mrpt_ekf"};
+/// `batch`, the optimum; `robust_batch`, in which observations that are more than 3 sigma off weigh less; and
+/// `mrpt_ekf`, a peer.
+inline constexpr std::array<std::string_view, 3> references = {"batch", "robust_batch", "mrpt_ekf"};
+bool is_optimum(std::string_view reference);
 
-/// Replays a run for a reference and scores it. `batch` is solved once at the end; map, belief and trajectory
-/// are the optimum's, and costs it has none. Throws BadInput if the run has an estimator of that name or the
-/// reference cannot be made, and std::runtime_error if no optimum is found.
+/// Replays a run for a reference and scores it. An optimum is solved for once at the end; map, belief and
+/// trajectory are its own, and costs it has none. Throws BadInput if the run has an estimator of that name or
+/// the reference cannot be made, and std::runtime_error if no optimum is found.
 ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
                                const Summary& summary, const DetailChoices& choices,
                                const seif::Registry& registry);

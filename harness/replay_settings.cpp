@@ -7,6 +7,7 @@
 
 #include "harness/csv_reader.hpp"
 #include "harness/estimator_schemas.hpp"
+#include "harness/readers/open_log.hpp"
 #include "worlds/check.hpp"
 #include "worlds/describe.hpp"
 #include "worlds/merge.hpp"
@@ -15,16 +16,14 @@ namespace harness {
 
 namespace {
 
-/// What a log of other origin is fed to, unless the command line says otherwise: the baseline, and the
-/// report's filter in constant time. Some of the other filters would take hours over a long log.
-constexpr const char* default_settings = "estimators: {ekf: {}, seif: {}, seif_report: {}}";
-
 /// The document of the run that wrote the log.
-std::optional<worlds::Node> read_settings(const std::filesystem::path& folder,
+std::optional<worlds::Node> read_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                           std::vector<worlds::Problem>& problems) {
-  if (std::filesystem::exists(folder / "world.yaml"))
-    return worlds::read_document(folder / "world.yaml", problems);
-  return worlds::parse_document(default_settings, "settings", problems);
+  for (const char* file : {"world.yaml", "replay.yaml"}) {
+    if (std::filesystem::exists(log / file)) return worlds::read_document(log / file, problems);
+  }
+  const std::string defaults = choices.defaults.empty() ? default_settings(LogFormat::own) : choices.defaults;
+  return worlds::parse_document(defaults, "settings", problems);
 }
 
 void check_override(const std::string& assignment) {
@@ -32,7 +31,8 @@ void check_override(const std::string& assignment) {
     if (assignment.starts_with(settable)) return;
   }
   throw BadInput(fmt::format(
-      "--set {}: a replay can set estimators, scoring, film and seed; the rest is recorded", assignment));
+      "--set {}: a replay can set estimators, scoring, film, seed and noise; the rest is recorded",
+      assignment));
 }
 
 /// Leaves the estimators that were asked for, in the order of the file; a registered type that is missing
@@ -58,7 +58,7 @@ void select_estimators(worlds::Node& document, const std::vector<std::string>& n
 worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                         const seif::Registry& registry) {
   worlds::LoadResult result;
-  std::optional<worlds::Node> document = read_settings(log, result.problems);
+  std::optional<worlds::Node> document = read_settings(log, choices, result.problems);
   worlds::WorldFile file;
   if (document) {
     for (const std::string& assignment : choices.overrides) {
@@ -77,6 +77,15 @@ worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const 
   result.world = std::move(file.world);
   result.resolved = worlds::emit(*document);
   return result;
+}
+
+std::string settings_of_replay(const std::string& resolved) {
+  std::vector<worlds::Problem> problems;
+  worlds::Node document = worlds::parse_document(resolved, "settings", problems).value();
+  std::erase_if(document.entries, [](const worlds::Node::Entry& entry) {
+    return entry.key != "estimators" && entry.key != "scoring" && entry.key != "film" && entry.key != "seed";
+  });
+  return worlds::emit(document);
 }
 
 }  // namespace harness

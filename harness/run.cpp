@@ -66,6 +66,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.trajectory_hash = trajectory_hash(plan.folder);
   summary.realtime_factor = summary.duration / elapsed;
   summary.rpe_interval = plan.scoring.rpe_interval;
+  for (const auto& [name, count] : named(stream.counts())) summary.log_counts.emplace_back(name, count);
   summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
   for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
   write_whole_file(plan.folder / "summary.json", to_json(summary));

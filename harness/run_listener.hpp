@@ -30,6 +30,7 @@ struct UpdateRecord {
   int active_landmarks = 0;                       // [-]
   std::int64_t links = 0;                         // [-]
   std::int64_t relocations = 0;                   // [-] so far
+  std::int64_t gated = 0;                         // [-] observations left out so far
   std::optional<double> mean_residual;            // [-] as in seif::Counts
   std::optional<double> anchoring;                // [nat] so far
   UpdateTimes times;

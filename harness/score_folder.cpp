@@ -34,7 +34,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
       folder / (score.name + "_steps.csv"),
       {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
         "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
-       {}});
+       {"gated"}});
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
   while (rows.next()) {
@@ -44,6 +44,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
     score.relocations = rows.integer(13, 0, most);
     if (!rows.is_empty(14)) mean_residuals.push_back(rows.number(14));
     if (!rows.is_empty(15)) score.anchoring = rows.number(15);
+    if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
   }
   score.blocks_touched = percentiles(blocks_touched);
@@ -118,7 +119,7 @@ std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, cons
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
   std::vector<PosePair> poses;
   if (!std::filesystem::exists(folder / "truth.csv")) return poses;
-  TruthReader truth(folder / "truth.csv");
+  TruthReader truth(folder);
   for (const TimedPose& pose : read_trajectory(folder, name)) {
     const std::optional<TruePose> true_pose = truth.at(pose.t);
     if (true_pose) poses.push_back({pose.t, pose.T_world_robot, true_pose->T_world_robot});

@@ -32,6 +32,7 @@ struct EstimatorScore {
   std::optional<std::int64_t> links;                             // [-] after the last update
   std::optional<std::int64_t> links_max;                         // [-]
   std::optional<std::int64_t> relocations;                       // [-] in all
+  std::optional<std::int64_t> gated;                             // [-] observations left out in all
   std::optional<Percentiles> mean_residual;                      // [-] after an update
   std::optional<double> anchoring;                               // [nat] left out in all
   std::optional<std::int64_t> active_max;                        // [-]

@@ -55,6 +55,26 @@ TextRow cost_row(const EstimatorScore& score) {
           memory(score.memory_bytes)};
 }
 
+/// What the reader of the log left out or bridged; empty if nothing.
+std::string log_line(const Summary& summary) {
+  if (summary.log_counts.empty()) return "";
+  std::string text;
+  for (const auto& [name, value] : summary.log_counts)
+    text += fmt::format("{}{} {}", text.empty() ? "\nLeft out of the log, or bridged: " : ", ", name, value);
+  return text + '\n';
+}
+
+/// How many observations the gates of the estimators have left out; empty if none.
+std::string gate_line(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (score.gated.value_or(0) > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "\nObservations left out by the gate: " : ", ",
+                          score.name, *score.gated);
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 }  // namespace
 
 std::vector<TextRow> accuracy_table(const Summary& summary) {
@@ -79,6 +99,7 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
+  text += log_line(summary) + gate_line(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

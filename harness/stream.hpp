@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "harness/read_counts.hpp"
 #include "seif/types.hpp"
 
 namespace harness {
@@ -48,6 +49,8 @@ class Stream {
   virtual ~Stream() = default;
   /// The next event, written over `event`; false at the end. Throws on a log that cannot be read further.
   virtual bool next(Event& event) = 0;
+  /// What had to be left out of a log so far, for streams that leave something out.
+  virtual ReadCounts counts() const { return {}; }
 };
 
 /// For streams: turns an event from one kind into the other and keeps the memory of its scan meanwhile, so

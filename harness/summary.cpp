@@ -63,6 +63,7 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links"] = count(score.links);
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
+  json["gated"] = count(score.gated);
   json["mean_residual"] = percentiles(score.mean_residual);
   json["anchoring_nat"] = number(score.anchoring);
   json["active_max"] = count(score.active_max);
@@ -83,6 +84,9 @@ Summary parse_summary(std::istream& text) {
   summary.trajectory_hash = json.at("trajectory_hash");
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
+  const Json log = json.value("log", Json::object());
+  for (const auto& [name, count] : log.items())
+    summary.log_counts.emplace_back(name, count.get<std::int64_t>());
   for (const auto& [name, score] : json.at("estimators").items()) {
     if (file_name_of(name) != name) throw BadInput(fmt::format("'{}' is no name of an estimator", name));
     summary.score.estimators.emplace_back().name = name;
@@ -124,6 +128,9 @@ std::string to_json(const Summary& summary) {
   json["trajectory_hash"] = summary.trajectory_hash;
   json["realtime_factor"] = number(summary.realtime_factor);
   json["rpe_interval_s"] = number(summary.rpe_interval);
+  if (!summary.log_counts.empty()) {
+    for (const auto& [name, count] : summary.log_counts) json["log"][name] = count;
+  }
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "harness/score_folder.hpp"
 
@@ -17,8 +19,9 @@ struct Summary {
   std::int64_t updates = 0;  // [-] scans
   bool interrupted = false;
   std::string trajectory_hash;
-  double realtime_factor = 0.0;  // [-] duration over the time that it took
-  double rpe_interval = 0.0;     // [s]
+  double realtime_factor = 0.0;                                  // [-] duration over the time that it took
+  double rpe_interval = 0.0;                                     // [s]
+  std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out, if any
   RunScore score;
   std::vector<std::string> failures;  // one for each of score.estimators; empty: none
 };

@@ -1,5 +1,6 @@
 // Which leaves are to be hot next, and which messages have to be sent anew for that.
 #include <algorithm>
+#include <optional>
 
 #include "seif/condensation_tree.hpp"
 
@@ -19,11 +20,13 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   };
   for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
   for (const int slot : slots) want(place(slot).leaf);
+  const std::optional<Pose2> elsewhere = state.other_linearisation_pose();
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once
     // Leaves stay where their landmarks first were, however a closure has bent the map since.
     const Eigen::Vector2d before_robot(options_.zone_before * view_, 0.0);
     tree_.for_each_leaf_near(state.linearisation_pose() * before_robot, views * view_, want);
+    if (elsewhere) tree_.for_each_leaf_near(*elsewhere * before_robot, views * view_, want);
   };
   want_near(options_.look_ahead);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return node(leaf).hot; });

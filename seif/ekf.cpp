@@ -1,6 +1,7 @@
 #include "seif/ekf.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <stdexcept>
 
@@ -10,7 +11,8 @@
 
 namespace seif {
 
-Ekf::Ekf(const EstimatorSetup& setup) : T_robot_sensor_(setup.T_robot_sensor) {
+Ekf::Ekf(const EstimatorSetup& setup, const EkfOptions& options)
+    : T_robot_sensor_(setup.T_robot_sensor), options_(options) {
   if (setup.start.covariance.llt().info() != Eigen::Success) {
     throw std::invalid_argument("the covariance of the start estimate is not positive definite");
   }
@@ -51,7 +53,7 @@ void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
         Linearised linearised{
             .row = row, .v = innovation(*observation, predicted.z), .J = {}, .Q = observation->covariance};
         linearised.J << predicted.J_wrt_pose, predicted.J_wrt_landmark;
-        known_.push_back(linearised);
+        if (!is_gated(linearised)) known_.push_back(linearised);
       } else if (std::ranges::find(unknown_, observation->landmark, &Observation::landmark) ==
                  unknown_.end()) {
         unknown_.push_back(observation);
@@ -64,6 +66,20 @@ void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
     for (const Observation* observation : unknown_) add_landmark(*observation);
   }
   done(Stage::measurement);
+}
+
+/// Whether what was seen is too far from what was expected; counts it then.
+bool Ekf::is_gated(const Linearised& linearised) {
+  if (options_.gate <= 0.0) return false;
+  Eigen::Matrix<double, 5, 5> P = Eigen::Matrix<double, 5, 5>::Zero();  // lower triangle
+  P.topLeftCorner<3, 3>() = Sigma_.topLeftCorner<3, 3>();
+  P.bottomLeftCorner<2, 3>() = Sigma_.block<2, 3>(linearised.row, 0);
+  P.bottomRightCorner<2, 2>() = Sigma_.block<2, 2>(linearised.row, linearised.row);
+  const Eigen::Matrix2d S =
+      linearised.J * P.selfadjointView<Eigen::Lower>() * linearised.J.transpose() + linearised.Q;
+  const bool gated = linearised.v.dot(S.inverse() * linearised.v) > options_.gate;
+  if (gated) ++gated_;
+  return gated;
 }
 
 /// Copies the full columns [row, row + Width) of Sigma to columns_ from column `to`; what lies above the
@@ -141,7 +157,10 @@ void Ekf::reserve(int landmarks) {
 
 Counts Ekf::counts() const {
   const std::int64_t n = landmark_count();
-  return {.blocks_touched = blocks_touched_, .active_landmarks = landmark_count(), .links = n * (n + 1) / 2};
+  return {.blocks_touched = blocks_touched_,
+          .active_landmarks = landmark_count(),
+          .links = n * (n + 1) / 2,
+          .gated = gated_};
 }
 
 std::optional<Eigen::Matrix3d> Ekf::pose_covariance() const {

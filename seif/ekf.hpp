@@ -10,12 +10,18 @@
 
 namespace seif {
 
+struct EkfOptions {
+  /// [-] An observation of a known landmark is left out if its innovation v has v' S^-1 v above this; 0:
+  /// never.
+  double gate = 0.0;
+};
+
 /// Covariance form; all known landmarks of a scan in one update, on the lower triangle alone. O(N^2) for each
 /// update.
 class Ekf final : public Estimator {
  public:
   /// Throws std::invalid_argument if the start covariance is not positive definite.
-  explicit Ekf(const EstimatorSetup& setup);
+  explicit Ekf(const EstimatorSetup& setup, const EkfOptions& options = {});
 
   void motion_update(const Odometry& odometry) override;
   void measurement_update(const Scan& scan, const StageDone& done) override;
@@ -48,6 +54,7 @@ class Ekf final : public Estimator {
 
   int landmark_count() const { return static_cast<int>(ids_.size()); }
   int size() const { return 3 + 2 * landmark_count(); }
+  bool is_gated(const Linearised& linearised);
   static int row_of(int slot) { return 3 + 2 * slot; }
   void set_pose(const Pose2& pose);
   template <int Width>
@@ -69,6 +76,8 @@ class Ekf final : public Estimator {
   std::vector<LandmarkId> ids_;  // by slot
   LandmarkIndex index_;
   Pose2 T_robot_sensor_;
+  EkfOptions options_;
+  std::int64_t gated_ = 0;
   std::int64_t blocks_touched_ = 0;
 };
 

@@ -35,7 +35,8 @@ struct Counts {
   int active_landmarks = 0;         // [-] landmarks with a link to the robot
   std::int64_t links = 0;           // [-] the report's count: robot's links + landmark pairs
   std::int64_t relocations =
-      0;  // [-] times the robot was marginalised out and put back, since the filter was made
+      0;                   // [-] times the robot was marginalised out and put back, since the filter was made
+  std::int64_t gated = 0;  // [-] observations of known landmarks left out: too far from what was expected
 
   // Diagnostics that cost constant time; nothing from filters that do not have them.
 

@@ -1,7 +1,6 @@
 #include "seif/information_state.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
@@ -18,48 +17,65 @@ InformationState::InformationState(const PoseEstimate& start) {
   }
   reserve_window(8);
   Omega_.topLeftCorner<3, 3>() = llt.solve(Eigen::Matrix3d::Identity());
-  set_pose(start.mean);
+  mu_.head<3>() << start.mean.x, start.mean.y, start.mean.theta;
+  linearisation_pose_ = start.mean;
 }
 
-void InformationState::set_pose(const Pose2& pose) {
+Eigen::Vector2d InformationState::move_pose(const Pose2& pose) {
+  const Pose2 before = this->pose();
   mu_.head<3>() << pose.x, pose.y, pose.theta;
-  linearisation_pose_ = uses_first_estimates() ? among_first_estimates(pose) : pose;
-}
+  if (!uses_first_estimates()) return {pose.x - before.x, pose.y - before.y};
 
-/// The pose after the rigid motion that brings the means of the active landmarks closest to their first
-/// estimates.
-Pose2 InformationState::among_first_estimates(const Pose2& pose) const {
-  if (active_count() < 2) return pose;
-  Eigen::Vector2d mean_centre = Eigen::Vector2d::Zero();
-  Eigen::Vector2d first_centre = Eigen::Vector2d::Zero();
+  first_estimates_.clear();
   for (int position = 0; position < active_count(); ++position) {
-    mean_centre += mu_.segment<2>(row_of(position));
-    first_centre += landmarks_[index(active(position))].first_estimate;
+    first_estimates_.push_back(
+        {mu_.segment<2>(row_of(position)), landmarks_[index(active(position))].first_estimate});
   }
-  mean_centre /= active_count();
-  first_centre /= active_count();
-  double cosine = 0.0;  // of the angle between the two, times the same
-  double sine = 0.0;
-  for (int position = 0; position < active_count(); ++position) {
-    const Eigen::Vector2d a = mu_.segment<2>(row_of(position)) - mean_centre;
-    const Eigen::Vector2d b = landmarks_[index(active(position))].first_estimate - first_centre;
-    cosine += a.dot(b);
-    sine += a.x() * b.y() - a.y() * b.x();
-  }
-  const double angle = cosine == 0.0 && sine == 0.0 ? 0.0 : std::atan2(sine, cosine);
-  const Eigen::Rotation2Dd rotation(angle);
-  const Eigen::Vector2d p = first_centre + rotation * (Eigen::Vector2d(pose.x, pose.y) - mean_centre);
-  return {p.x(), p.y(), wrap_angle(pose.theta + angle)};
+  const Pose2 from = linearisation_pose_;
+  const Pose2 carried = from * (inverse(before) * pose);
+  const FramedPose framed = pose_among(first_estimates_, pose, carried);
+  linearisation_pose_ = framed.pose;
+  const Pose2 to = framed.another_frame ? carried : framed.pose;  // changing the frame is no motion
+  return {to.x - from.x, to.y - from.y};
 }
 
 Eigen::Vector2d InformationState::linearisation_point(int slot) const {
   return uses_first_estimates() ? Eigen::Vector2d(landmarks_[index(slot)].first_estimate) : mean(slot);
 }
 
+Eigen::Vector2d InformationState::lever(int slot, const Eigen::Vector2d& p_world_landmark) const {
+  const Eigen::Vector2d lever = p_world_landmark - mu_.head<2>();
+  if (!uses_first_estimates()) return lever;
+  const Eigen::Vector2d first_lever =
+      linearisation_point(slot) - Eigen::Vector2d(linearisation_pose_.x, linearisation_pose_.y);
+  return stands_for(first_lever, lever) ? first_lever : lever;
+}
+
+std::optional<Pose2> InformationState::other_linearisation_pose() const {
+  if (!uses_first_estimates()) return std::nullopt;
+  const Eigen::Vector2d there(linearisation_pose_.x, linearisation_pose_.y);
+  for (const int slot : active_) {
+    const Eigen::Vector2d lever = mean(slot) - mu_.head<2>();
+    const Eigen::Vector2d first = linearisation_point(slot);
+    if (stands_for(first - there, lever)) continue;
+    const Eigen::Vector2d p = first - lever;
+    return Pose2{p.x(), p.y(), linearisation_pose_.theta};
+  }
+  return std::nullopt;
+}
+
+/// Not turned as the frame is: the small turns of many landmarks, each placed by those before it, would add
+/// up.
+Eigen::Vector2d InformationState::among_first_estimates(const Eigen::Vector2d& p_world) const {
+  if (!uses_first_estimates()) return p_world;
+  return Eigen::Vector2d(linearisation_pose_.x, linearisation_pose_.y) + p_world - mu_.head<2>();
+}
+
 void InformationState::update_first_estimates() {
   for (int position = 0; position < active_count(); ++position) {
     Landmark& landmark = landmarks_[index(active(position))];
-    if (landmark.sightings <= settled_after_) landmark.first_estimate = mu_.segment<2>(row_of(position));
+    if (landmark.sightings > settled_after_) continue;
+    landmark.first_estimate = among_first_estimates(mu_.segment<2>(row_of(position)));
   }
 }
 
@@ -91,7 +107,7 @@ Eigen::Matrix2d InformationState::information(int slot) const {
 int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean) {
   const int slot = landmark_count();
   index_.insert(landmark, slot);
-  landmarks_.push_back({.id = landmark, .mu = mean, .first_estimate = mean});
+  landmarks_.push_back({.id = landmark, .mu = mean, .first_estimate = among_first_estimates(mean)});
   return slot;
 }
 
@@ -207,6 +223,7 @@ void InformationState::reserve_window(int active_landmarks) {
   r_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
   link_of_.conservativeResizeLike(Eigen::MatrixXi::Constant(new_room, new_room, none));
   active_.reserve(index(new_room));
+  first_estimates_.reserve(index(new_room));
 }
 
 void InformationState::move_robot(const Eigen::Vector3d& d) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "seif/chunked_array.hpp"
+#include "seif/first_estimate_frame.hpp"
 #include "seif/landmark_index.hpp"
 #include "seif/types.hpp"
 
@@ -46,8 +47,9 @@ class InformationState {
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
-  /// The mean of the pose as a motion predicts it; the caller keeps r.
-  void set_pose(const Pose2& pose);
+  /// The mean of the pose as a motion predicts it; the caller keeps r. Returns by how much the pose that
+  /// levers are taken from was moved [m].
+  Eigen::Vector2d move_pose(const Pose2& pose);
 
   // What the steps take for the null space of what is observed: at the mean, or at first estimates.
 
@@ -55,15 +57,23 @@ class InformationState {
   /// their first estimates, a landmark's being where it was believed to be after `sightings` scans (at least
   /// one) that saw it. Then this motion is one and the same for all time, and nothing is learned of what
   /// nothing observes: Huang, Mourikis, Roumeliotis, "Observability-based rules for designing consistent EKF
-  /// SLAM estimators", IJRR 2010. The pose's is where its prediction stands among the first estimates; once
-  /// the map has moved as a whole, as at the end of a loop, the prediction itself would not fit to them.
+  /// SLAM estimators", IJRR 2010. The pose's is where its prediction stands among the first estimates
+  /// (pose_among()); once the map has moved as a whole, as at the end of a loop, the prediction itself would
+  /// not fit to them. Nor would a new landmark's mean, so its first estimate is put where it is from there.
   /// Before the first landmark joins.
   void use_first_estimates(int sightings) { settled_after_ = sightings; }
   bool uses_first_estimates() const { return settled_after_ > 0; }
 
-  /// The pose, and p_world_landmark, that levers are to be taken between.
+  /// The pose among the first estimates, and where a landmark is among them.
   Pose2 linearisation_pose() const { return uses_first_estimates() ? linearisation_pose_ : pose(); }
   Eigen::Vector2d linearisation_point(int slot) const;
+  /// Where the pose is among the first estimates of active landmarks that it does not fit to, as along the
+  /// seam of a loop that was closed: from one of these. Nothing if it fits to all.
+  std::optional<Pose2> other_linearisation_pose() const;
+
+  /// From the pose to a landmark taken to be at p_world_landmark, where steps are to linearise [m]. That
+  /// between the first estimates wherever it stands for it.
+  Eigen::Vector2d lever(int slot, const Eigen::Vector2d& p_world_landmark) const;
 
   /// Takes the present means for the first estimates of active landmarks that are not settled yet.
   void update_first_estimates();
@@ -195,7 +205,7 @@ class InformationState {
   void move_within_window(int from, int to);
   void reserve_window(int active_landmarks);
   void note_residual(Landmark& landmark);
-  Pose2 among_first_estimates(const Pose2& pose) const;
+  Eigen::Vector2d among_first_estimates(const Eigen::Vector2d& p_world) const;
 
   std::vector<int> active_;  // slots, by position
   Eigen::MatrixXd Omega_;    // window, with room to grow
@@ -210,6 +220,7 @@ class InformationState {
   LandmarkIndex index_;
   int settled_after_ = 0;  // [-] sightings; 0: Jacobians at the mean
   Pose2 linearisation_pose_;
+  std::vector<FirstEstimate> first_estimates_;  // scratch, of the active landmarks
   int scan_ = 0;
   bool tracks_residual_ = false;
   double squared_residual_ = 0.0;  // of the passive landmarks

@@ -47,14 +47,9 @@ void symmetrise_robot_rows(InformationState& state) {
 
 void motion_update(InformationState& state, const Odometry& odometry) {
   const PredictedPose predicted = predict_pose(state.pose(), odometry);
-  const Pose2 from = state.linearisation_pose();
-  state.set_pose(predicted.pose);
+  const Eigen::Vector2d moved = state.move_pose(predicted.pose);
   Eigen::Matrix3d F = predicted.J_wrt_pose;
-  if (state.uses_first_estimates()) {  // from one point of linearisation to the next
-    const Pose2 to = state.linearisation_pose();
-    F(0, 2) = from.y - to.y;
-    F(1, 2) = to.x - from.x;
-  }
+  if (state.uses_first_estimates()) F.topRightCorner<2, 1>() << -moved.y(), moved.x();
   change_pose_variable(state, F);
   add_motion_noise(state, predicted.noise_factor);
   symmetrise_robot_rows(state);

@@ -17,11 +17,11 @@ ObservationFactor unlinearised(const InformationState& state, int slot, const Ob
 }
 
 /// With first estimates: what turning the pose does is the opposite of what turning the landmark's first
-/// estimate about the pose's does, so that turning everything does nothing.
-void keep_null_space(const InformationState& state, ObservationFactor& factor) {
+/// estimate about the pose's does, so that turning everything does nothing. The landmark is taken to be at p.
+void keep_null_space(const InformationState& state, const Eigen::Vector2d& p_world_landmark,
+                     ObservationFactor& factor) {
   if (!state.uses_first_estimates()) return;
-  const Pose2 x = state.linearisation_pose();
-  const Eigen::Vector2d lever = state.linearisation_point(factor.slot) - Eigen::Vector2d(x.x, x.y);
+  const Eigen::Vector2d lever = state.lever(factor.slot, p_world_landmark);
   factor.J_x.col(2) = factor.J_m * Eigen::Vector2d(lever.y(), -lever.x());
 }
 
@@ -50,7 +50,7 @@ ObservationFactor linearise(const InformationState& state, int slot, const Obser
   factor.v = innovation(observation, predicted.z);
   factor.J_x = predicted.J_wrt_pose;
   factor.J_m = predicted.J_wrt_landmark;
-  keep_null_space(state, factor);
+  keep_null_space(state, factor.m0, factor);
   return factor;
 }
 
@@ -62,7 +62,7 @@ ObservationFactor linearise_at_measurement(const InformationState& state, int sl
   factor.J_x = predicted.J_wrt_pose;
   factor.J_m = predicted.J_wrt_landmark;
   factor.v = factor.J_m * (seen_at - factor.m0);  // at seen_at the innovation is zero
-  keep_null_space(state, factor);
+  keep_null_space(state, seen_at, factor);
   return factor;
 }
 

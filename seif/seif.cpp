@@ -1,6 +1,8 @@
 #include "seif/seif.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <stdexcept>
 
 #include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
@@ -22,6 +24,7 @@ Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
       tree_(options.tree, setup.start.mean),
       by_tree_(options.mean_recovery == SeifMean::tree),
       T_robot_sensor_(setup.T_robot_sensor) {
+  if (options_.gate > 0.0 && !by_tree_) throw std::invalid_argument("gate needs mean_recovery: tree");
   if (options_.first_estimates > 0) state_.use_first_estimates(options_.first_estimates);
 }
 
@@ -33,7 +36,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (!by_tree_) mean_.before_information(state_);
   add_known(scan);
   solve_window(scan.t);
-  if (options_.first_estimates == 0) relinearise(scan.t);
+  relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
   if (!by_tree_) mean_.after_information(state_);
   state_.update_first_estimates();
@@ -70,7 +73,32 @@ void Seif::add_known(const Scan& scan) {
                            ? linearise_at_measurement(state_, *slot, observation, T_robot_sensor_)
                            : linearise(state_, *slot, observation, T_robot_sensor_));
   }
+  if (options_.gate > 0.0) leave_out_gated(scan.t);
   for (const ObservationFactor& factor : factors_) add(state_, factor);
+}
+
+/// Those that are too far from what was expected. Each is tested by itself, before any of the scan is added.
+void Seif::leave_out_gated(double t) {
+  if (factors_.empty()) return;
+  solve_window(t);  // for its factor; where r is zero already, nothing moves
+  gated_ += static_cast<std::int64_t>(std::erase_if(factors_, [this](const ObservationFactor& factor) {
+    return squared_mahalanobis(factor) > options_.gate;
+  }));
+}
+
+/// v' S^-1 v with S = J (L L')^-1 J' + Q, where L is the factor that solve_window() leaves in work(): that of
+/// the information on the window with all else eliminated.
+double Seif::squared_mahalanobis(const ObservationFactor& factor) {
+  const int w = state_.window_size();
+  if (J_by_factor_.rows() < w) J_by_factor_.resize(2 * w, 2);
+  auto Y = J_by_factor_.topRows(w);
+  Y.setZero();
+  Y.topRows<3>() = factor.J_x.transpose();
+  Y.middleRows<2>(InformationState::row_of(state_.position(factor.slot))) = factor.J_m.transpose();
+  state_.work().triangularView<Eigen::Lower>().solveInPlace(Y);
+  const Eigen::Matrix2d S = Y.transpose() * Y + factor.observation.covariance;
+  const Eigen::Vector2d v = residual(state_, factor);
+  return v.dot(S.inverse() * v);
 }
 
 /// Whether the landmark is seen so far from where it is believed to be that the direction to it is useless.
@@ -167,6 +195,7 @@ Counts Seif::counts() const {
   return {.blocks_touched = state_.blocks_touched() + mean_.blocks_touched() + tree_.blocks_touched(),
           .active_landmarks = state_.active_count(),
           .links = state_.link_count(),
+          .gated = gated_,
           .mean_residual = by_tree_ || options_.mean_recovery == SeifMean::exact
                                ? std::nullopt
                                : std::optional(mean_.residual()),

@@ -22,14 +22,18 @@ struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
   int theta_max = 16;  // [-] sparsify only when the robot has more links than this
   /// [-] A landmark's first estimate is that after so many scans that saw it (InformationState::
-  /// use_first_estimates). 0: none; observations are linearised again after the update where the mean has
-  /// moved too far.
+  /// use_first_estimates). 0: none.
   int first_estimates = 5;
-  double relinearise_above = 0.1;  // [sigma] nonlinearity of an observation, if first_estimates is 0
+  /// [sigma] Nonlinearity of an observation above which it is linearised again, where the update has moved
+  /// the mean to.
+  double relinearise_above = 0.1;
   /// [-] An observation is linearised at what was measured where that lies farther from where the landmark is
   /// believed to be than so many times the measured range: the direction to it is useless then.
   /// As on a long ring that closes. 0: never.
   double closing_gate = 0.5;
+  /// [-] An observation of a known landmark is left out if its innovation v has v' S^-1 v above this; 0:
+  /// never. Needs mean_recovery tree, whose window knows its covariance in constant time.
+  double gate = 0.0;
   SeifMean mean_recovery = SeifMean::tree;
   MultilevelOptions multilevel = {};
   CondensationOptions tree = {};
@@ -46,6 +50,8 @@ struct SeifOptions {
 ///   every size, each update a few (multilevel_mean).
 class Seif final : public Estimator {
  public:
+  /// Throws std::invalid_argument if the start covariance is not positive definite, and for a gate without
+  /// the tree.
   Seif(const EstimatorSetup& setup, const SeifOptions& options);
 
   void motion_update(const Odometry& odometry) override;
@@ -70,6 +76,8 @@ class Seif final : public Estimator {
   Eigen::Vector2d mean(int slot) const;
   void activate_known(const Scan& scan);
   void add_known(const Scan& scan);
+  void leave_out_gated(double t);
+  double squared_mahalanobis(const ObservationFactor& factor);
   bool is_closing(int slot, const Observation& observation) const;
   [[nodiscard]] bool add_new(const Scan& scan);
   void relinearise(double t);
@@ -83,9 +91,11 @@ class Seif final : public Estimator {
   CondensationTree tree_;
   const bool by_tree_;  // whether the mean is the tree's
   Pose2 T_robot_sensor_;
-  double anchoring_ = 0.0;                  // [nat]
-  std::vector<ObservationFactor> factors_;  // of the latest scan
-  std::vector<int> seen_, to_drop_;         // slots; kept so that no update allocates
+  double anchoring_ = 0.0;  // [nat]
+  std::int64_t gated_ = 0;
+  Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow
+  std::vector<ObservationFactor> factors_;                // of the latest scan
+  std::vector<int> seen_, to_drop_;                       // slots; kept so that no update allocates
 };
 
 }  // namespace seif

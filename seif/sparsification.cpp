@@ -107,13 +107,12 @@ std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
 /// about the robot; each scaled to unit length. `scales` gets the lengths.
 void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const Eigen::MatrixXd>& D,
                           Columns V, Eigen::Vector3d& scales) {
-  const Pose2 pose = state.linearisation_pose();
   V = D.leftCols<3>();
   double squared_levers = 0.0;
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
-    const Eigen::Vector2d lever =
-        state.linearisation_point(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    const int slot = state.active(position);
+    const Eigen::Vector2d lever = state.lever(slot, state.mean(slot));
     V.leftCols<2>() += D.middleCols<2>(row);
     V.col(2) += lever.x() * D.col(row + 1) - lever.y() * D.col(row);
     squared_levers += lever.squaredNorm();
@@ -126,12 +125,11 @@ void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const 
 /// P' V (3 x 3), with P as above.
 Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Columns& V,
                                        const Eigen::Vector3d& scales) {
-  const Pose2 pose = state.linearisation_pose();
   Eigen::Matrix3d PtV = V.topRows<3>();
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
-    const Eigen::Vector2d lever =
-        state.linearisation_point(state.active(position)) - Eigen::Vector2d(pose.x, pose.y);
+    const int slot = state.active(position);
+    const Eigen::Vector2d lever = state.lever(slot, state.mean(slot));
     PtV.topRows<2>() += V.middleRows<2>(row);
     PtV.row(2) += lever.x() * V.row(row + 1) - lever.y() * V.row(row);
   }

@@ -43,6 +43,14 @@ const OptionSpec K{
     .max = 1'000'000,
     .help = "Random landmarks that the mean recovery relaxes in each update, beside the active ones [-]."};
 
+const OptionSpec gate{.key = "gate",
+                      .fallback = 0.0,
+                      .min = 0.0,
+                      .help =
+                          "An observation of a known landmark is left out if its squared innovation, "
+                          "normalised, is above this; "
+                          "0: never; 13.8 leaves out one in a thousand that are right [-]."};
+
 template <class Filter>
 EstimatorType without_options(const std::string& name, const std::string& help) {
   return {.name = name, .help = help, .options = {}, .make = [](const EstimatorSetup& setup, const Options&) {
@@ -94,14 +102,12 @@ EstimatorType seif() {
       .max = 1000,
       .help =
           "Scans after which a landmark's first estimate is settled, which fixes what the filter cannot "
-          "observe; 0: none, but observations are relinearised [-]."};
+          "observe; 0: none [-]."};
   const OptionSpec relinearise_above{
       .key = "relinearise_above",
       .fallback = defaults.relinearise_above,
       .min = 0.0,
-      .help =
-          "With first_estimates 0: nonlinearity of an observation above which it is linearised again "
-          "[sigma]."};
+      .help = "Nonlinearity of an observation above which it is linearised again after the update [sigma]."};
   const OptionSpec closing_gate{
       .key = "closing_gate",
       .fallback = defaults.closing_gate,
@@ -155,8 +161,8 @@ EstimatorType seif() {
           .help =
               "Ours: gauge-free sparsification, null space from first estimates, mean along a tree; constant "
               "time.",
-          .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, mean_recovery,
-                      other_groups, relaxed_groups, tree_unknowns, tree_grain, tree_blocks},
+          .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, gate,
+                      mean_recovery, other_groups, relaxed_groups, tree_unknowns, tree_grain, tree_blocks},
           .make = [=](const EstimatorSetup& setup, const Options& options) {
             SeifOptions chosen;
             chosen.theta_x = integer(options, theta_x);
@@ -164,6 +170,7 @@ EstimatorType seif() {
             chosen.first_estimates = integer(options, first_estimates);
             chosen.relinearise_above = option<double>(options, relinearise_above.key);
             chosen.closing_gate = option<double>(options, closing_gate.key);
+            chosen.gate = option<double>(options, gate.key);
             chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
             chosen.multilevel.other_groups = integer(options, other_groups);
             chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
@@ -172,6 +179,16 @@ EstimatorType seif() {
             chosen.tree.grain = option<double>(options, tree_grain.key);
             return std::make_unique<Seif>(setup, chosen);
           }};
+}
+
+EstimatorType ekf() {
+  return {
+      .name = "ekf",
+      .help = "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline.",
+      .options = {gate},
+      .make = [](const EstimatorSetup& setup, const Options& options) {
+        return std::make_unique<Ekf>(setup, EkfOptions{.gate = option<double>(options, gate.key)});
+      }};
 }
 
 EstimatorType seif_gauge_free() {
@@ -218,8 +235,7 @@ EstimatorType eseif() {
 
 Registry standard_estimators() {
   Registry registry;
-  registry.add(without_options<Ekf>(
-      "ekf", "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline."));
+  registry.add(ekf());
   registry.add(without_options<Eif>(
       "eif", "The dense extended information filter: exact up to linearisation, cubic time; the oracle."));
   registry.add(seif_report());

@@ -33,7 +33,7 @@ std::string trajectories_csv(const std::filesystem::path& run, std::span<const s
   names.insert(names.end(), estimators.begin(), estimators.end());
   std::string text = "t";
   std::optional<TruthReader> truth;
-  if (std::filesystem::exists(run / "truth.csv")) truth.emplace(run / "truth.csv");
+  if (std::filesystem::exists(run / "truth.csv")) truth.emplace(run);
   if (truth) add_columns("true", text);
   std::vector<std::vector<TimedPose>> trajectories;
   for (const std::string& name : names) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/score.hpp"
+#include "harness/score/from_reference.hpp"
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
 #include "harness/score/rebuilt.hpp"
@@ -35,11 +36,13 @@ struct EstimatorDetails {
   std::optional<double> pose_inside;               // [-] the share of them inside the chi-square band
   std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
   RebuiltScore rebuilt;                            // by a replay, where there was one
+  std::optional<DistanceFromReference> from_reference;  // where a reference was asked for
   std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] of the position
 };
 
 struct RunDetails {
   DetailChoices choices;
+  std::string reference;      // its name; empty: none was asked for
   std::size_t closures = 0;   // [-]
   EstimatorDetails odometry;  // the trajectory alone
   std::vector<EstimatorDetails> estimators;
@@ -52,7 +55,8 @@ RunDetails score_details(const std::filesystem::path& folder, std::span<const st
 /// The summary, with the details in each estimator.
 std::string to_json(const Summary& summary, const RunDetails& details);
 
-/// Of the map, of what was rebuilt, of the path and, if a loop closes, of the error after that.
+/// Of the map, of what was rebuilt, of the path, and, if there is such, of the distance from a reference and
+/// of the error after a loop has closed.
 std::vector<std::vector<TextRow>> details_tables(const RunDetails& details);
 
 /// The same as text.

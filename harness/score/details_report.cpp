@@ -51,6 +51,13 @@ void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json&
   json["nees_pose_inside_of"] = details.poses_scored;
   json["nees_landmark_inside"] = number(details.landmarks_inside);
   add_rebuilt(details.rebuilt, json);
+  if (details.from_reference) {
+    const DistanceFromReference& distance = *details.from_reference;
+    json["from_reference"] = {{"landmark_rmse_m", number(distance.landmarks.rmse)},
+                              {"landmark_rmse_aligned_m", number(distance.landmarks.rmse_aligned)},
+                              {"ate_rmse_m", number(distance.trajectory.rmse)},
+                              {"ate_rmse_aligned_m", number(distance.trajectory.rmse_aligned)}};
+  }
   add_trajectory(run, details, json);
 }
 
@@ -91,6 +98,22 @@ TextRow rebuilt_row(const EstimatorDetails& details) {
           band_cell(rebuilt.scans.band),
           percent_cell(rebuilt.scans.inside),
           fmt::format("{}", rebuilt.scans.count)};
+}
+
+/// Empty if no reference was asked for.
+std::vector<TextRow> reference_table(const RunDetails& details) {
+  if (details.reference.empty()) return {};
+  std::vector<TextRow> table = {
+      {"from " + details.reference, "map [m]", "aligned [m]", "positions [m]", "aligned [m]"}};
+  for (const EstimatorDetails& estimator : details.estimators) {
+    if (!estimator.from_reference) continue;
+    const DistanceFromReference& distance = *estimator.from_reference;
+    table.push_back({estimator.name, number_cell(distance.landmarks.rmse, 3),
+                     number_cell(distance.landmarks.rmse_aligned, 3),
+                     number_cell(distance.trajectory.rmse, 3),
+                     number_cell(distance.trajectory.rmse_aligned, 3)});
+  }
+  return table;
 }
 
 TextRow path_row(const EstimatorDetails& details) {
@@ -148,12 +171,14 @@ std::vector<std::vector<TextRow>> details_tables(const RunDetails& details) {
   add_moving(details.odometry);
   std::vector<std::vector<TextRow>> tables = {map, rebuilt, path};
   if (details.closures > 0) tables.push_back(closure);
+  if (!details.reference.empty()) tables.push_back(reference_table(details));
   return tables;
 }
 
 std::string details_board(const RunDetails& details) {
   const std::vector<std::vector<TextRow>> tables = details_tables(details);
   std::string text = text_table(tables[0]) + '\n' + text_table(tables[1]) + '\n' + text_table(tables[2]);
+  if (!details.reference.empty()) text += '\n' + text_table(tables.back());
   if (details.closures == 0) return text + "\nNo loop closes.\n";
   return text +
          fmt::format("\nError of the position [m], {} closures\n{}", details.closures, text_table(tables[3]));

@@ -53,7 +53,7 @@ TEST_F(MrptEkfTest, TellsItsCovariancesBetweenAMotionAndItsScan) {
   const seif::EstimatorSetup setup{
       {{1.0, 2.0, 0.3}, Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal()}, {0.2, 0.1, -0.4}, {}};
   const auto peer = registry.find("mrpt_ekf")->make(setup, test::choice("mrpt_ekf").options);
-  const auto ekf = registry.find("ekf")->make(setup, {});
+  const auto ekf = registry.find("ekf")->make(setup, test::choice("ekf").options);
   const Eigen::Matrix2d noise = Eigen::Vector2d(0.01, 0.0004).asDiagonal();
   const Eigen::Matrix3d R = Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal();
   for (seif::Estimator* filter : {peer.get(), ekf.get()}) {

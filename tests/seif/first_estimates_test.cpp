@@ -91,10 +91,11 @@ struct DenseFirstEstimates {
 
   void motion(const Odometry& u) {
     const PredictedPose predicted = predict_pose(pose(), u);
+    const Pose2 carried = Pose2{at(0), at(1), at(2)} * (inverse(pose()) * predicted.pose);
     const auto n = Omega.rows();
     Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
     mu.head<3>() << predicted.pose.x, predicted.pose.y, predicted.pose.theta;
-    const Eigen::Vector3d to = pose_among_first_estimates();
+    const Eigen::Vector3d to = pose_among_first_estimates(carried);
     F(0, 2) = -(to(1) - at(1));
     F(1, 2) = to(0) - at(0);
     Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(n, n);
@@ -103,10 +104,11 @@ struct DenseFirstEstimates {
     at.head<3>() = to;
   }
 
-  /// Where the robot is once the means of the landmarks are brought upon their first estimates.
-  Eigen::Vector3d pose_among_first_estimates() const {
+  /// Where the robot is once the means of the landmarks are brought upon their first estimates, all of which
+  /// are near.
+  Eigen::Vector3d pose_among_first_estimates(const Pose2& carried) const {
     const auto landmarks = static_cast<Eigen::Index>(ids.size());
-    if (landmarks < 2) return mu.head<3>();
+    if (landmarks < 2) return {carried.x, carried.y, carried.theta};
     const auto points = [&](const Eigen::VectorXd& all) {
       return Eigen::MatrixXd(Eigen::Map<const Eigen::Matrix2Xd>(all.data() + 3, 2, landmarks));
     };
@@ -150,8 +152,12 @@ struct DenseFirstEstimates {
     for (const Observation& z : unknown) add_new(z);
     for (std::size_t slot = 0; slot < ids.size(); ++slot) {
       const int row = InformationState::row_of(static_cast<int>(slot));
-      if (seen[slot] <= settled_after) at.segment<2>(row) = mu.segment<2>(row);
+      if (seen[slot] <= settled_after) at.segment<2>(row) = among_first_estimates(mu.segment<2>(row));
     }
+  }
+
+  Eigen::Vector2d among_first_estimates(const Eigen::Vector2d& p) const {
+    return at.head<2>() + p - mu.head<2>();
   }
 
   void add_new(const Observation& z) {
@@ -160,7 +166,8 @@ struct DenseFirstEstimates {
     Omega.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 2, n + 2));
     mu.conservativeResize(n + 2);
     at.conservativeResize(n + 2);
-    mu.tail<2>() = at.tail<2>() = p;
+    mu.tail<2>() = p;
+    at.tail<2>() = among_first_estimates(p);
     const Eigen::MatrixXd C = slopes(static_cast<int>(ids.size()));
     Omega += C * z.covariance.inverse() * C.transpose();
     ids.push_back(z.landmark);

@@ -1,0 +1,48 @@
+// How the odometry and the landmark sensor of a robot err, where a log does not say it row by row.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/log_description.hpp"
+#include "seif/types.hpp"
+#include "worlds/fields.hpp"
+
+namespace harness {
+
+/// Errors that grow like a random walk: their variances add up over the way and over the turns, whatever the
+/// increments are.
+struct OdometryNoise {
+  double distance_sd_per_sqrt_m = 0.0;  // [m/sqrt(m)] along the way
+  double sideways_sd_per_sqrt_m = 0.0;  // [m/sqrt(m)] across it
+  double turn_sd_per_sqrt_m = 0.0;      // [rad/sqrt(m)]
+  double turn_sd_per_sqrt_rad = 0.0;    // [-] sqrt(rad)
+};
+
+/// Nothing: as it stands in the log.
+struct LogNoise {
+  std::optional<OdometryNoise> odometry;
+  std::optional<SensorNoise> sensor;
+};
+
+/// Of an increment, in its own frame. (3 x 3) [m, rad]
+Eigen::Matrix3d covariance(const OdometryNoise& noise, const seif::Pose2& T_previous_current);
+
+/// What the command line says about it: a file, and `noise.key=value`, which wins.
+struct NoiseChoices {
+  std::filesystem::path file = {};  // empty: none
+  std::vector<std::string> overrides = {};
+
+  bool empty() const { return file.empty() && overrides.empty(); }
+};
+
+/// `fallback` with what was chosen. A key of the odometry sets all of its noise, and one of the sensor all of
+/// that, with the fallback's values for the others. Throws BadInput.
+LogNoise read_noise(const NoiseChoices& choices, const LogNoise& fallback);
+
+/// As read_noise reads it from a file.
+std::string to_yaml(const LogNoise& noise);
+
+}  // namespace harness

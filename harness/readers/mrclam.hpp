@@ -1,0 +1,40 @@
+// A folder of the UTIAS Multi-Robot Cooperative Localization and Mapping Dataset, for one of its robots.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "harness/readers/log_noise.hpp"
+#include "harness/readers/velocity_log.hpp"
+#include "harness/row_reader.hpp"
+
+namespace harness {
+
+/// Barcodes, landmarks and truth are those of the folder. The start is the truth where it is known, else the
+/// origin. All functions throw BadInput.
+class MrclamLog final : public VelocityLog {
+ public:
+  MrclamLog(const std::filesystem::path& folder, int robot);
+
+  static bool is_in(const std::filesystem::path& folder);
+
+  /// Chosen on dataset 6, all five robots: docs/datasets.md. More than each measurement errs by itself, since
+  /// the errors of one place are much the same.
+  static LogNoise default_noise();
+
+ protected:
+  std::optional<VelocityRow> read_velocity() override;
+  std::optional<ObservationRow> read_observation() override;
+  std::optional<TruePose> read_truth() override;
+
+ private:
+  std::map<std::int64_t, seif::LandmarkId> subjects_;  // by barcode
+  RowReader velocity_rows_;
+  RowReader observation_rows_;
+  std::optional<RowReader> truth_rows_;
+  std::optional<double> velocity_t_;     // [s] of the last row
+  std::optional<double> observation_t_;  // [s]
+  std::optional<double> truth_t_;        // [s]
+};
+
+}  // namespace harness

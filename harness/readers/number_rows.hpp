@@ -1,0 +1,39 @@
+// Tables of numbers that begin with a time, from robots that now and then write nonsense.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "harness/readers/velocity_log.hpp"
+#include "harness/row_reader.hpp"
+
+namespace harness {
+
+/// The next line that is no comment and not empty; it may have so many cells at most.
+bool next_row(RowReader& rows, std::size_t cells);
+
+/// The next row of numbers that are all finite and whose time, in column `Time`, does not go back; others are
+/// left out and counted. Throws BadInput for what is no number.
+template <std::size_t Time = 0, std::size_t Columns>
+std::optional<std::array<double, Columns>> next_numbers(RowReader& rows,
+                                                        const std::array<std::string_view, Columns>& names,
+                                                        std::optional<double>& last_t, ReadCounts& counts) {
+  while (next_row(rows, Columns)) {
+    std::array<double, Columns> values;
+    for (std::size_t i = 0; i < Columns; ++i) values[i] = rows.number(i, names[i], Finite::not_required);
+    if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
+      ++counts.not_finite;
+    } else if (last_t && values[Time] < *last_t) {
+      ++counts.backwards;
+    } else {
+      last_t = values[Time];
+      return values;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace harness

@@ -1,0 +1,36 @@
+// The drive through Victoria Park as a car's speeds and steering angles and as trees without names.
+#pragma once
+
+#include <filesystem>
+
+#include "harness/readers/log_noise.hpp"
+#include "harness/readers/velocity_log.hpp"
+#include "harness/row_reader.hpp"
+
+namespace harness {
+
+/// The robot's origin is the middle of the rear axle; the sensor is the laser. Nobody knows which tree an
+/// observation is of: description().known_association is false. All functions throw BadInput.
+class VictoriaParkLog final : public VelocityLog {
+ public:
+  explicit VictoriaParkLog(const std::filesystem::path& folder);
+
+  static bool is_in(const std::filesystem::path& folder);
+  static LogNoise default_noise();
+
+ protected:
+  std::optional<VelocityRow> read_velocity() override;
+  std::optional<ObservationRow> read_observation() override;
+
+ private:
+  RowReader velocity_rows_;
+  RowReader observation_rows_;
+  std::optional<double> velocity_t_;     // [s] of the last row
+  std::optional<double> observation_t_;  // [s]
+};
+
+/// How the middle of the rear axle moves when the rear left wheel rolls at `wheel_speed` [m/s] and the car
+/// steers by `steering` [rad], left positive.
+VelocityRow car_velocity(double t, double wheel_speed, double steering);
+
+}  // namespace harness

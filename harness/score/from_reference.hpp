@@ -1,0 +1,28 @@
+// How far an estimate lies from that of a reference: what there is to say where the truth is not known.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/score_folder.hpp"
+
+namespace harness {
+
+/// What a reference says. The map is sorted by landmark.
+struct ReferenceEstimate {
+  std::vector<TrueLandmark> map;
+  std::vector<TimedPose> trajectory;
+};
+
+struct DistanceFromReference {
+  PointScore landmarks;   // [m] of those that both have
+  PointScore trajectory;  // [m] of the positions at the times that both have
+};
+
+/// Of the estimator's map and trajectory in the folder of a run. Throws BadInput.
+DistanceFromReference distance_from_reference(const std::filesystem::path& folder, const std::string& name,
+                                              const ReferenceEstimate& reference);
+
+}  // namespace harness
