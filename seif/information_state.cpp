@@ -46,19 +46,20 @@ Eigen::Vector2d InformationState::linearisation_point(int slot) const {
 Eigen::Vector2d InformationState::lever(int slot, const Eigen::Vector2d& p_world_landmark) const {
   const Eigen::Vector2d lever = p_world_landmark - mu_.head<2>();
   if (!uses_first_estimates()) return lever;
-  const Eigen::Vector2d first_lever =
-      linearisation_point(slot) - Eigen::Vector2d(linearisation_pose_.x, linearisation_pose_.y);
-  return stands_for(first_lever, lever) ? first_lever : lever;
+  const Eigen::Vector2d first = first_lever(slot);
+  return stands_for(first, lever) ? first : lever;
+}
+
+Eigen::Vector2d InformationState::first_lever(int slot) const {
+  return linearisation_point(slot) - Eigen::Vector2d(linearisation_pose_.x, linearisation_pose_.y);
 }
 
 std::optional<Pose2> InformationState::other_linearisation_pose() const {
   if (!uses_first_estimates()) return std::nullopt;
-  const Eigen::Vector2d there(linearisation_pose_.x, linearisation_pose_.y);
   for (const int slot : active_) {
     const Eigen::Vector2d lever = mean(slot) - mu_.head<2>();
-    const Eigen::Vector2d first = linearisation_point(slot);
-    if (stands_for(first - there, lever)) continue;
-    const Eigen::Vector2d p = first - lever;
+    if (stands_for(first_lever(slot), lever)) continue;
+    const Eigen::Vector2d p = linearisation_point(slot) - lever;
     return Pose2{p.x(), p.y(), linearisation_pose_.theta};
   }
   return std::nullopt;

@@ -205,6 +205,7 @@ class InformationState {
   void move_within_window(int from, int to);
   void reserve_window(int active_landmarks);
   void note_residual(Landmark& landmark);
+  Eigen::Vector2d first_lever(int slot) const;  // between first estimates
   Eigen::Vector2d among_first_estimates(const Eigen::Vector2d& p_world) const;
 
   std::vector<int> active_;  // slots, by position

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "harness/readers/landmark_rows.hpp"
 
 namespace harness {
 
 namespace {
 
-constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
 constexpr double start_sd = 1e-3;  // [m, rad] the robot begins at the origin
 
 std::vector<TrueLandmark> read_world(const std::filesystem::path& file) {
@@ -23,10 +22,7 @@ std::vector<TrueLandmark> read_world(const std::filesystem::path& file) {
                          {rows.number(1, "x"), rows.number(2, "y")},
                          0.0});
   }
-  std::ranges::sort(landmarks, {}, &TrueLandmark::landmark);
-  const auto twice = std::ranges::adjacent_find(landmarks, {}, &TrueLandmark::landmark);
-  if (twice != landmarks.end())
-    throw BadInput(fmt::format("{}: landmark {} stands there twice", file.string(), twice->landmark));
+  sort_by_id(landmarks, file, "landmark");
   return landmarks;
 }
 
@@ -73,15 +69,11 @@ bool FreiburgLog::next(Event& event) {
 }
 
 void FreiburgLog::fill(ScanEvent& event) {
-  event.scan.t = t_;
-  event.scan.observations.clear();
-  event.true_ids.clear();
-  event.truth.reset();
+  begin_scan(event, t_, std::nullopt);
   for (; row_left_ && rows_.cell(0) == "SENSOR"; row_left_ = read_row()) add_observation(event);
 }
 
 void FreiburgLog::add_observation(ScanEvent& event) {
-  std::vector<seif::Observation>& seen = event.scan.observations;
   seif::Observation now;
   now.landmark = static_cast<seif::LandmarkId>(rows_.integer(1, "landmark", 0, largest_id));
   now.range = rows_.number(2, "range", Finite::not_required);
@@ -95,11 +87,7 @@ void FreiburgLog::add_observation(ScanEvent& event) {
     return;
   }
   now.bearing = seif::wrap_angle(now.bearing);
-  if (std::ranges::find(seen, now.landmark, &seif::Observation::landmark) != seen.end()) {
-    ++counts_.repeated;
-  } else {
-    seen.push_back(now);
-  }
+  add_once(now, event, counts_);
 }
 
 }  // namespace harness

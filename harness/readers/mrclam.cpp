@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
+#include "harness/readers/landmark_rows.hpp"
 #include "harness/readers/number_rows.hpp"
 
 namespace harness {
@@ -14,7 +12,6 @@ namespace {
 constexpr seif::LandmarkId last_robot = 5;  // subjects 1 to 5 are robots
 constexpr double truth_gap = 0.5;           // [s] the cameras took a picture every hundredth
 constexpr double start_sd = 0.01;           // [m, rad] of the motion capture, with room
-constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
 
 std::map<std::int64_t, seif::LandmarkId> read_barcodes(const std::filesystem::path& file) {
   RowReader rows(file, ' ');
@@ -34,10 +31,7 @@ std::vector<TrueLandmark> read_true_landmarks(const std::filesystem::path& file)
     const auto subject = static_cast<seif::LandmarkId>(rows.integer(0, "subject", 1, largest_id));
     landmarks.push_back({subject, {rows.number(1, "x"), rows.number(2, "y")}, 0.0});
   }
-  std::ranges::sort(landmarks, {}, &TrueLandmark::landmark);
-  const auto twice = std::ranges::adjacent_find(landmarks, {}, &TrueLandmark::landmark);
-  if (twice != landmarks.end())
-    throw BadInput(fmt::format("{}: subject {} stands there twice", file.string(), twice->landmark));
+  sort_by_id(landmarks, file, "subject");
   return landmarks;
 }
 

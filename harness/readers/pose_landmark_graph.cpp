@@ -3,19 +3,18 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string_view>
+
+#include "harness/readers/landmark_rows.hpp"
+#include "seif/models.hpp"
 
 namespace harness {
 
 namespace {
 
-constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
-constexpr double start_sd = 1e-3;       // [m, rad] the frame is the first pose's
-constexpr double nearest_range = 0.01;  // [m] below it a bearing says nothing, as in the measurement model
+constexpr double start_sd = 1e-3;  // [m, rad] the frame is the first pose's
 
 /// An upper triangle, row by row; zero below.
 template <int Size>
@@ -43,21 +42,22 @@ Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size
   return covariance;
 }
 
+/// g2o counts the error of a motion in the frame of its end, iSAM in that of its beginning, as we do.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double theta) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // R_begin_end
+  R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(theta).toRotationMatrix();
+  return R * covariance * R.transpose();
+}
+
 bool is_vertex(std::string_view word) { return word.starts_with("VERTEX") || word == "FIX"; }
 bool is_isam_motion(std::string_view word) { return word == "ODOMETRY" || word == "EDGE2"; }
 
 /// As range and bearing; the covariance to first order.
 seif::Observation observation_of(const GraphEdge& edge) {
-  const Eigen::Vector2d& p = edge.p_from_landmark;
-  const double range = p.norm();
-  const double bearing = std::atan2(p.y(), p.x());
-  const double lever = std::max(range, nearest_range);
-  const double c = std::cos(bearing);
-  const double s = std::sin(bearing);
-  Eigen::Matrix2d J_z_wrt_point;
-  J_z_wrt_point << c, s, -s / lever, c / lever;
-  const Eigen::Matrix2d covariance = J_z_wrt_point * edge.point_covariance * J_z_wrt_point.transpose();
-  return {static_cast<seif::LandmarkId>(edge.to), range, bearing,
+  const seif::PredictedObservation seen = seif::predict_observation({}, {}, edge.p_from_landmark);
+  const Eigen::Matrix2d& J = seen.J_wrt_landmark;
+  const Eigen::Matrix2d covariance = J * edge.point_covariance * J.transpose();
+  return {static_cast<seif::LandmarkId>(edge.to), seen.z(0), seen.z(1),
           0.5 * (covariance + covariance.transpose())};
 }
 
@@ -102,13 +102,14 @@ std::optional<GraphEdge> GraphEdges::read_edge() {
   return std::nullopt;
 }
 
-GraphEdge GraphEdges::motion(bool is_square_root) const {
+GraphEdge GraphEdges::motion(bool is_isam) const {
   GraphEdge edge;
   edge.from = rows_.integer(1, "pose", 0, largest_id);
   edge.to = rows_.integer(2, "next pose", 0, largest_id);
   edge.T_from_to = {rows_.number(3, "dx"), rows_.number(4, "dy"),
                     seif::wrap_angle(rows_.number(5, "dtheta"))};
-  edge.covariance = covariance_of<3>(rows_, 6, is_square_root);
+  edge.covariance = covariance_of<3>(rows_, 6, is_isam);
+  if (!is_isam) edge.covariance = turned(edge.covariance, edge.T_from_to.theta);
   return edge;
 }
 
@@ -151,10 +152,9 @@ void PoseLandmarkGraph::read_true_landmarks(const std::filesystem::path& file) {
     if (const auto* odometry = std::get_if<OdometryEvent>(&event))
       pose = pose * odometry->odometry.T_previous_current;
     if (const auto* scan = std::get_if<ScanEvent>(&event)) {
-      for (const seif::Observation& o : scan->scan.observations) {
-        const Eigen::Vector2d p_robot_landmark(o.range * std::cos(o.bearing), o.range * std::sin(o.bearing));
-        landmarks.try_emplace(o.landmark, pose * p_robot_landmark);
-      }
+      for (const seif::Observation& observation : scan->scan.observations)
+        landmarks.try_emplace(observation.landmark,
+                              seif::invert_observation(pose, {}, observation).p_world_landmark);
     }
   }
   std::vector<TrueLandmark>& all = description_.landmarks.emplace();
@@ -199,19 +199,9 @@ void PoseLandmarkGraph::move_truth(const GraphEdge& motion) {
 }
 
 void PoseLandmarkGraph::fill(ScanEvent& event) {
-  event.scan.t = t_;
-  event.scan.observations.clear();
-  event.true_ids.clear();
-  event.truth = true_pose_;
-  std::vector<seif::Observation>& seen = event.scan.observations;
-  for (; next_landmark_ && next_landmark_->from == pose_; next_landmark_ = landmarks_.next()) {
-    const seif::Observation now = observation_of(*next_landmark_);
-    if (std::ranges::find(seen, now.landmark, &seif::Observation::landmark) != seen.end()) {
-      ++counts_.repeated;
-    } else {
-      seen.push_back(now);
-    }
-  }
+  begin_scan(event, t_, true_pose_);
+  for (; next_landmark_ && next_landmark_->from == pose_; next_landmark_ = landmarks_.next())
+    add_once(observation_of(*next_landmark_), event, counts_);
 }
 
 }  // namespace harness

@@ -37,7 +37,7 @@ class GraphEdges {
 
  private:
   std::optional<GraphEdge> read_edge();
-  GraphEdge motion(bool is_square_root) const;
+  GraphEdge motion(bool is_isam) const;
   GraphEdge landmark(bool is_square_root) const;
 
   RowReader rows_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/readers/landmark_rows.hpp"
 #include "sensors/wheel_arc.hpp"
 
 namespace harness {
@@ -83,21 +84,9 @@ void VelocityLog::leave_out_what_nothing_leads_to() {
 
 /// Gathers the observations of one time.
 void VelocityLog::fill(ScanEvent& event) {
-  event.scan.t = t_;
-  event.scan.observations.clear();
-  event.true_ids.clear();
-  event.truth = truth_at(t_);
-  std::vector<seif::Observation>& seen = event.scan.observations;
-  for (; next_observation_ && since_start(next_observation_->t) == t_;
-       next_observation_ = read_observation()) {
-    const seif::Observation& now = next_observation_->observation;
-    if (now.landmark != seif::no_landmark &&
-        std::ranges::find(seen, now.landmark, &seif::Observation::landmark) != seen.end()) {
-      ++counts_.repeated;
-    } else {
-      seen.push_back(now);
-    }
-  }
+  begin_scan(event, t_, truth_at(t_));
+  for (; next_observation_ && since_start(next_observation_->t) == t_; next_observation_ = read_observation())
+    add_once(next_observation_->observation, event, counts_);
 }
 
 }  // namespace harness

@@ -135,7 +135,7 @@ TEST(LongRing, OfTwoKilometresClosesNearlyAsInTheOptimum) {
   EXPECT_LE(found.back(), 2.0);
 }
 
-// The aim is 1.05; 1.052 was measured.
+// The aim is 1.05, and 1.2 for the worst; measured are 1.052 and 1.63.
 TEST(LongRing, OfFiveHundredMetresClosesAsInTheOptimum) {
   const std::vector<double> found = ratios(500.0, 21);
   EXPECT_LE(found.at(10), 1.10);

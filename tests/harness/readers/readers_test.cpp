@@ -102,6 +102,15 @@ TEST_P(Graph, IsTheSameStreamInBothFormats) {
   EXPECT_NEAR(seen.bearing, std::atan2(-1.0, 1.0), 1e-12);
 }
 
+// By hand: the end looks to the left, so what is ahead of it is to the left of the beginning.
+TEST(G2oGraph, HasTheErrorsOfAMotionInTheFrameOfItsEnd) {
+  const TemporaryFolder folder;
+  const auto log = open(folder, {{"graph.g2o", "EDGE_SE2 0 1 2 1 1.5707963267948966 1 0 0 4 0 9\n"}});
+  const std::vector<Event> events = read_all(*log);
+  const Eigen::Matrix3d expected = Eigen::Vector3d(1.0 / 4, 1.0, 1.0 / 9).asDiagonal();
+  EXPECT_TRUE(odometry(events.at(0)).odometry.covariance.isApprox(expected, 1e-12));
+}
+
 TEST_P(Graph, TurnsPointsIntoRangesAndBearingsWithTheirCovariance) {
   const TemporaryFolder folder;
   const auto log = open(folder, GetParam());
