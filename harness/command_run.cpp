@@ -83,8 +83,7 @@ void add_run(CommandLine line) {
   CLI::Option* resume = command->add_flag(
       "--resume", arguments->resume,
       "WORLD is the folder of a run that was interrupted, killed or cut off by a full disk: complete it, "
-      "with "
-      "the bytes that it would have had but for times; it is simulated again, so that this takes as long");
+      "with the bytes that it would have had but for times; it is simulated again, which takes as long");
   add_output_options(*command, arguments->output, "runs/<world>-<seed>");
   for (const char* other : {"--set", "--seed", "--duration", "--film", "--out"})
     resume->excludes(command->get_option(other));

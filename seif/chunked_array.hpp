@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace seif {
@@ -23,10 +24,10 @@ class ChunkedArray {
     return chunks_[i / chunk_size][i % chunk_size];
   }
 
-  void push_back(const T& value) {
+  void push_back(T value) {
     if (size_ == chunks_.size() * chunk_size) chunks_.push_back(std::make_unique<T[]>(chunk_size));
     ++size_;
-    (*this)[size_ - 1] = value;
+    (*this)[size_ - 1] = std::move(value);
   }
 
   std::size_t memory_bytes() const {

@@ -52,6 +52,13 @@ struct SentMessage {
   bool is_bare = true;
   std::vector<int> groups;  // nodes whose groups are in its front
   LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
+
+  void take(SentMessage& other) {
+    message.take(other.message);
+    is_bare = other.is_bare;
+    groups = other.groups;
+    reach = other.reach;
+  }
 };
 
 /// A node of the tree; an epoch ends with whatever changes a mean, or how it is held.
@@ -82,6 +89,7 @@ struct CondensationPlan {
   std::vector<int> hot_leaves;       // of the next zone
   std::vector<int> stale;            // nodes that send anew
   std::vector<int> order;            // the same, each after those that it depends on
+  std::int64_t most_blocks = 0;      // [-] that one update makes ready; 0: all
   std::size_t ready = 0;             // [-] of these
   std::vector<int> begun;            // nodes whose groups are
   std::deque<SentMessage> messages;  // by that order, as far as ready

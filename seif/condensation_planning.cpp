@@ -91,6 +91,10 @@ void CondensationTree::prepare_plan(const InformationState& state, int hub) {
   plan_.order.clear();
   plan_.ready = 0;
   put_in_order(hub);
+  std::int64_t as_before = 0;  // what the messages that go have cost
+  for (const int at : plan_.order) as_before += sent(at).message.blocks();
+  const bool in_slices = options_.most_blocks > 0;
+  plan_.most_blocks = in_slices ? std::max<std::int64_t>(options_.most_blocks, as_before / most_slices) : 0;
   while (plan_.messages.size() < plan_.order.size()) plan_.messages.emplace_back();
 }
 

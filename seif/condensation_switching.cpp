@@ -128,14 +128,13 @@ void CondensationTree::switch_leaves() {
   tree_.move_hub();
 }
 
-/// A node's message by the planned one, after those that it depends on. Copied: so each node needs the room
-/// of its own largest message, and none is asked for once the map is built.
+/// A node's message by the planned one, after those that it depends on.
 void CondensationTree::replace(const InformationState& state, int at) {
-  const SentMessage& planned = plan_.messages[static_cast<std::size_t>(node(at).planned)];
+  SentMessage& planned = plan_.messages[static_cast<std::size_t>(node(at).planned)];
   forget(node(at).sent);
   SentMessage& now = at == tree_.hub() ? to_zone_ : node(at).sent;
   forget(now);
-  now = planned;
+  now.take(planned);
   Condensed& message = now.message;
   for (const FrontVariable v : message.eliminated) settle(v, at);
   for (Condensed::Tie& tie : message.tied) {

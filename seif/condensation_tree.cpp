@@ -99,10 +99,10 @@ bool CondensationTree::is_ready(int slot) const {
 /// The zone moves in an update of its own, unless little was left to do.
 bool CondensationTree::work_on_plan(InformationState& state) {
   const std::int64_t before = blocks_touched_;
-  if (!make_ready(state, options_.most_blocks)) return false;
+  if (!make_ready(state, plan_.most_blocks)) return false;
   if (plan_.ready < plan_.order.size()) return true;
   const bool is_all_at_once = options_.most_blocks == 0;
-  const bool has_time = 4 * (blocks_touched_ - before) <= options_.most_blocks;
+  const bool has_time = 4 * (blocks_touched_ - before) <= plan_.most_blocks;
   return !(is_all_at_once || has_time) || move_zone(state);
 }
 

@@ -36,9 +36,10 @@ struct CondensationOptions {
   /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
   int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
-  /// [-] Blocks of messages that one update makes ready for the next zone, and perhaps one message more. 0:
-  /// all at once, as soon as a landmark is seen outside of the zone.
-  int most_blocks = 20'000;
+  /// [-] Blocks of messages that one update makes ready for the next zone, or a quarter of those that it
+  /// takes if that is more, and perhaps one message more. 0: all at once, as soon as a landmark is seen
+  /// outside of the zone.
+  int most_blocks = 5'000;
   // In multiples of how far the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
@@ -82,7 +83,8 @@ class CondensationTree {
 
  private:
   static constexpr int none = -1;
-  static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
+  static constexpr int most_bare = 8;    // [-] leaves below a node that condenses nothing
+  static constexpr int most_slices = 4;  // [-] of a plan that is large
   using Place = CondensedLandmark;
   using Node = CondensationNode;
   Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
@@ -188,9 +190,9 @@ class CondensationTree {
 
   CondensationOptions options_;
   LeafTree tree_;
+  Front front_;  // before what holds its arrays
   ChunkedArray<Node> nodes_;
   ChunkedArray<Place> places_;  // by slot
-  Front front_;
   HotZone zone_;
   SentMessage to_zone_;  // by the hub
   CondensationPlan plan_;

@@ -17,6 +17,19 @@ void Condensed::clear() {
   reference.clear();
 }
 
+void Condensed::take(Condensed& other) {
+  eliminated = other.eliminated;
+  boundary = other.boundary;
+  tied = other.tied;
+  e = other.e;
+  b = other.b;
+  factor = std::move(other.factor);
+  S = std::move(other.S);
+  y = other.y;
+  s = other.s;
+  reference = other.reference;
+}
+
 void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const {
   r = Eigen::Map<const Eigen::VectorXd>(s.data(), b);
   const double* column = S.data();
@@ -31,8 +44,7 @@ void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<
 std::size_t Condensed::memory_bytes() const {
   return boundary.capacity() * sizeof(Member) + eliminated.capacity() * sizeof(FrontVariable) +
          tied.capacity() * sizeof(Tie) +
-         (factor.capacity() + S.capacity() + y.capacity() + s.capacity() + reference.capacity()) *
-             sizeof(double);
+         (y.capacity() + s.capacity() + reference.capacity()) * sizeof(double);
 }
 
 void Front::begin() {
@@ -225,14 +237,12 @@ bool Front::factorise(Condensed& out) {
   const Eigen::Index b = out.b;
   const Eigen::Index n = e + b;
   if (!eliminate(e, n)) return false;
-  out.factor.reserve(static_cast<std::size_t>(n * e));
-  for (Eigen::Index col = 0; col < e; ++col) {
-    out.factor.insert(out.factor.end(), &M_(0, col), &M_(0, col) + n);
-  }
-  out.S.reserve(static_cast<std::size_t>(b * (b + 1) / 2));
-  for (Eigen::Index col = 0; col < b; ++col) {
-    out.S.insert(out.S.end(), &M_(e + col, e + col), &M_(e + col, e + col) + (b - col));
-  }
+  out.factor = pool_->take(static_cast<std::size_t>(n * e));
+  double* to = out.factor.data();
+  for (Eigen::Index col = 0; col < e; ++col) to = std::copy_n(&M_(0, col), n, to);
+  out.S = pool_->take(static_cast<std::size_t>(b * (b + 1) / 2));
+  to = out.S.data();
+  for (Eigen::Index col = 0; col < b; ++col) to = std::copy_n(&M_(e + col, e + col), b - col, to);
   return true;
 }
 
@@ -268,8 +278,9 @@ void Front::condense_residual(Condensed& front) {
 }
 
 std::size_t Front::memory_bytes() const {
-  return landmarks_.memory_bytes() + groups_.memory_bytes() + variables_.capacity() * sizeof(Variable) +
-         blocks_.capacity() * sizeof(Block) + static_cast<std::size_t>(M_.size()) * sizeof(double);
+  return pool_->memory_bytes() + landmarks_.memory_bytes() + groups_.memory_bytes() +
+         variables_.capacity() * sizeof(Variable) + blocks_.capacity() * sizeof(Block) +
+         static_cast<std::size_t>(M_.size()) * sizeof(double);
 }
 
 }  // namespace seif

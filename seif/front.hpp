@@ -13,8 +13,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "seif/array_pool.hpp"
 #include "seif/chunked_array.hpp"
 
 namespace seif {
@@ -41,8 +43,8 @@ struct Condensed {
   std::vector<Member> boundary;
   std::vector<Tie> tied;
   int e = 0, b = 0;               // [-] rows of E, of B
-  std::vector<double> factor;     // (e + b x e) [L; G'], by column
-  std::vector<double> S;          // (b x b) lower triangle, by column
+  ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
+  ArrayPool::Array S;             // (b x b) lower triangle, by column
   std::vector<double> y;          // (e)
   std::vector<double> s;          // (b) the residual where B is at its reference
   std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
@@ -56,9 +58,13 @@ struct Condensed {
   /// s - S d: the residual of B where its mean has gone by d (b) since its reference.
   void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
   void clear();
+  /// Becomes the other, whose arrays it takes away; lists are copied, so that each keeps its own room.
+  void take(Condensed& other);
+  /// Without its arrays: those are the front's.
   std::size_t memory_bytes() const;
 };
 
+/// Must live longer than what it leaves behind, whose arrays are of its pool.
 class Front {
  public:
   struct Variable {
@@ -67,6 +73,11 @@ class Front {
     FrontVariable group;  // that it is tied to, or itself
     Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
   };
+
+  Front() = default;
+  Front(Front&&) = default;
+  Front& operator=(Front&&) = delete;  // arrays of the pool that goes may be in use
+  ~Front() = default;
 
   void begin();
   /// The front takes in what another has left.
@@ -147,6 +158,7 @@ class Front {
   bool eliminate(Eigen::Index e, Eigen::Index n);
   bool factorise(Condensed& out);
 
+  std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
   int front_ = 0;
   int size_ = 0;
   ChunkedArray<Place> landmarks_, groups_;

@@ -14,7 +14,9 @@ void HotZone::reserve(int landmarks) {
   columns_.resize(room, room);
   swept_.resize(room, room);
   pivot_.resize(room, room);
+  change_.resize(room, room);
   members_.reserve(static_cast<std::size_t>(room / 2));
+  rest_.reserve(static_cast<std::size_t>(room / 2));
 }
 
 void HotZone::load(const Condensed& without) {
@@ -49,45 +51,62 @@ void HotZone::add_information(int a, int b, const Eigen::Matrix2d& Omega_ab) {
   ++blocks_touched_;
 }
 
-/// Of A = sign F_TT with T the places, U = F_:T and V = U A^-1:
-///   F -= sign V U',   F_:T = V,   F_TT = -sign A^-1.
-bool HotZone::sweep(std::span<const int> places, double sign) {
-  const auto n = 2 * static_cast<Eigen::Index>(size());
-  const auto t = 2 * static_cast<Eigen::Index>(places.size());
-  auto U = columns_.topLeftCorner(n, t);
-  auto V = swept_.topLeftCorner(n, t);
-  auto A = pivot_.topLeftCorner(t, t);
-  Eigen::Index col = 0;
-  for (const int place : places) {
-    U.middleCols<2>(col) = F_.middleCols<2>(2 * place).topRows(n);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      A.block<2, 2>(2 * static_cast<Eigen::Index>(i), col) = sign * block(places[i], place);
+void HotZone::list_rest(std::span<const int> places) {
+  rest_.clear();
+  for (int place = 0; place < size(); ++place) {
+    if (std::ranges::find(places, place) == places.end()) rest_.push_back(place);
+  }
+}
+
+/// F_RR -= sign change, of which the lower triangle is known.
+void HotZone::spread_change(double sign) {
+  const auto block_of = [](Eigen::MatrixXd& M, std::size_t i, std::size_t j) {
+    return M.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j));
+  };
+  for (std::size_t j = 0; j < rest_.size(); ++j) {
+    change_(static_cast<Eigen::Index>(2 * j), static_cast<Eigen::Index>(2 * j + 1)) =
+        change_(static_cast<Eigen::Index>(2 * j + 1), static_cast<Eigen::Index>(2 * j));
+    for (std::size_t i = j; i < rest_.size(); ++i) {
+      const Eigen::Matrix2d step = sign * block_of(change_, i, j);
+      block(rest_[i], rest_[j]) -= step;
+      if (i != j) block(rest_[j], rest_[i]) -= step.transpose();
     }
-    col += 2;
+  }
+}
+
+/// With T the places and R the rest, A = sign F_TT, U = F_RT and V = U A^-1:
+///   F_RR -= sign V U',   F_RT = V,   F_TT = -sign A^-1.
+bool HotZone::sweep(std::span<const int> places, double sign) {
+  list_rest(places);
+  const auto r = 2 * static_cast<Eigen::Index>(rest_.size());
+  const auto t = 2 * static_cast<Eigen::Index>(places.size());
+  auto U = columns_.topLeftCorner(r, t);
+  auto V = swept_.topLeftCorner(r, t);
+  auto A = pivot_.topLeftCorner(t, t);
+  const auto at = [](std::size_t i) { return 2 * static_cast<Eigen::Index>(i); };
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < rest_.size(); ++i) U.block<2, 2>(at(i), at(j)) = block(rest_[i], places[j]);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      A.block<2, 2>(at(i), at(j)) = sign * block(places[i], places[j]);
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A);
   if (llt.info() != Eigen::Success) return false;
   V = U;
   llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(V);
   llt.matrixL().solveInPlace<Eigen::OnTheRight>(V);
-  auto F = F_.topLeftCorner(n, n);
-  F.triangularView<Eigen::Lower>() -= (sign * V) * U.transpose();
-  F.triangularView<Eigen::StrictlyUpper>() = F.transpose();
-  col = 0;
-  for (const int place : places) {
-    F.middleCols<2>(2 * place) = V.middleCols<2>(col);
-    F.middleRows<2>(2 * place) = V.middleCols<2>(col).transpose();
-    col += 2;
-  }
-  auto inverse = swept_.topLeftCorner(t, t);  // V is done with
+  change_.topLeftCorner(r, r).triangularView<Eigen::Lower>() = V * U.transpose();
+  spread_change(sign);
+  auto inverse = columns_.topLeftCorner(t, t);  // U is done with
   inverse.setIdentity();
   llt.solveInPlace(inverse);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      block(places[i], places[j]) =
-          -sign * inverse.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j));
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < rest_.size(); ++i) {
+      block(rest_[i], places[j]) = V.block<2, 2>(at(i), at(j));
+      block(places[j], rest_[i]) = V.block<2, 2>(at(i), at(j)).transpose();
     }
-    members_[static_cast<std::size_t>(places[i])].active = sign < 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      block(places[i], places[j]) = -sign * inverse.block<2, 2>(at(i), at(j));
+    members_[static_cast<std::size_t>(places[j])].active = sign < 0.0;
   }
   blocks_touched_ += std::int64_t{size()} * (size() + 1) / 2;
   return true;
@@ -104,7 +123,7 @@ Eigen::Vector2d HotZone::step_of(int place, const Eigen::VectorXd& d) const {
 
 std::size_t HotZone::memory_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(F_.size() + mean_.size() + columns_.size() +
-                                                   swept_.size() + pivot_.size()) +
+                                                   swept_.size() + pivot_.size() + change_.size()) +
          members_.capacity() * sizeof(Member);
 }
 

@@ -71,13 +71,16 @@ class HotZone {
   };
   const Member& member(int place) const { return members_[static_cast<std::size_t>(place)]; }
   void reserve(int landmarks);
+  void list_rest(std::span<const int> places);
+  void spread_change(double sign);
   bool sweep(std::span<const int> places, double sign);
   Eigen::Vector2d step_of(int place, const Eigen::VectorXd& d) const;
 
   std::vector<Member> members_;
-  Eigen::MatrixXd F_;     // symmetric, with room to grow
-  Eigen::VectorXd mean_;  // with room to grow, as all below [m]
-  Eigen::MatrixXd columns_, swept_, pivot_;
+  Eigen::MatrixXd F_;      // symmetric, with room to grow
+  Eigen::VectorXd mean_;   // with room to grow, as all below [m]
+  std::vector<int> rest_;  // places that a sweep does not take
+  Eigen::MatrixXd columns_, swept_, pivot_, change_;
   std::int64_t blocks_touched_ = 0;
 };
 

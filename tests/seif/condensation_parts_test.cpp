@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "seif/array_pool.hpp"
 #include "seif/front.hpp"
 #include "seif/hot_zone.hpp"
 #include "seif/leaf_tree.hpp"
@@ -22,6 +23,32 @@ Eigen::MatrixXd positive_definite(int n, unsigned seed) {
   std::normal_distribution<double> normal;
   const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
   return A * A.transpose() + Eigen::MatrixXd::Identity(n, n);
+}
+
+TEST(ArrayPool, HandsOutAgainWhatHasComeBack) {
+  ArrayPool pool;
+  for (std::size_t size = 1; size < 5000; size += size / 7 + 1) {
+    ArrayPool::Array one = pool.take(size);
+    std::fill_n(one.data(), size, 1.0);
+    const std::size_t bytes = pool.memory_bytes();
+    ArrayPool::Array moved = std::move(one);
+    EXPECT_EQ(one.size(), 0u);
+    EXPECT_EQ(moved.size(), size);
+    moved.clear();
+    const ArrayPool::Array again = pool.take(size);
+    EXPECT_EQ(pool.memory_bytes(), bytes) << size;
+    const ArrayPool::Array another = pool.take(size);
+    EXPECT_NE(another.data(), again.data());
+  }
+}
+
+TEST(ArrayPool, WastesAQuarterAtMost) {
+  for (std::size_t size = 8; size < 100'000; size += size / 5 + 1) {
+    ArrayPool pool;
+    const ArrayPool::Array array = pool.take(size);
+    EXPECT_GE(pool.memory_bytes(), size * sizeof(double));
+    EXPECT_LE(pool.memory_bytes(), (size + size / 4) * sizeof(double)) << size;
+  }
 }
 
 /// Of M over the landmarks `kept`, the others eliminated.

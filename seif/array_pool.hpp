@@ -1,0 +1,106 @@
+// Arrays of numbers that are handed from one owner to the next and come back when nobody wants them. What
+// asks for arrays of changing sizes again and again asks the heap for none, once the pool has seen its worst.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace seif {
+
+class ArrayPool {
+ public:
+  /// Goes back to its pool when it goes; the pool must live longer.
+  class Array {
+   public:
+    Array() = default;
+    Array(Array&& other) noexcept
+        : pool_(other.pool_), memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
+    Array& operator=(Array&& other) noexcept {
+      clear();
+      pool_ = other.pool_;
+      memory_ = std::move(other.memory_);
+      size_ = std::exchange(other.size_, 0);
+      return *this;
+    }
+    ~Array() { clear(); }
+
+    void clear() {
+      if (memory_) pool_->take_back(std::move(memory_), size_);
+      size_ = 0;
+    }
+    double* data() { return memory_.get(); }
+    const double* data() const { return memory_.get(); }
+    std::size_t size() const { return size_; }
+    double operator[](std::size_t i) const {
+      assert(i < size_);
+      return memory_[i];
+    }
+
+   private:
+    friend class ArrayPool;
+    Array(ArrayPool* pool, std::unique_ptr<double[]> memory, std::size_t size)
+        : pool_(pool), memory_(std::move(memory)), size_(size) {}
+
+    ArrayPool* pool_ = nullptr;
+    std::unique_ptr<double[]> memory_;
+    std::size_t size_ = 0;
+  };
+
+  ArrayPool() = default;
+  ArrayPool(const ArrayPool&) = delete;
+  ArrayPool& operator=(const ArrayPool&) = delete;
+
+  /// What stands in it is anybody's guess.
+  Array take(std::size_t size) {
+    if (size == 0) return {};
+    Shelf& shelf = shelf_of(size);
+    if (shelf.free.empty()) return {this, made(shelf, capacity_of(size)), size};
+    std::unique_ptr<double[]> memory = std::move(shelf.free.back());
+    shelf.free.pop_back();
+    return {this, std::move(memory), size};
+  }
+
+  /// Of all arrays, in use or not.
+  std::size_t memory_bytes() const { return bytes_; }
+
+ private:
+  /// Arrays of one capacity. These grow by an eighth to a quarter from shelf to shelf.
+  struct Shelf {
+    std::vector<std::unique_ptr<double[]>> free;
+    std::size_t made = 0;
+  };
+  static constexpr std::size_t shelves = 128;
+
+  static int shift_of(std::size_t size) {
+    return std::max(0, static_cast<int>(std::bit_width(size - 1)) - 3);
+  }
+  static std::size_t capacity_of(std::size_t size) {
+    const int shift = shift_of(size);
+    return (((size - 1) >> shift) + 1) << shift;
+  }
+  Shelf& shelf_of(std::size_t size) {
+    const int shift = shift_of(size);
+    return shelves_.at(4 * static_cast<std::size_t>(shift) + ((size - 1) >> shift));
+  }
+
+  std::unique_ptr<double[]> made(Shelf& shelf, std::size_t capacity) {
+    ++shelf.made;
+    if (shelf.made > shelf.free.capacity()) shelf.free.reserve(2 * shelf.made);  // for all to come back
+    bytes_ += capacity * sizeof(double);
+    return std::make_unique_for_overwrite<double[]>(capacity);
+  }
+  void take_back(std::unique_ptr<double[]> memory, std::size_t size) noexcept {
+    shelf_of(size).free.push_back(std::move(memory));
+  }
+
+  std::array<Shelf, shelves> shelves_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace seif
