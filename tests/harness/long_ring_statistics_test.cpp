@@ -221,8 +221,8 @@ void print(const char* filter, const AboutClosure& nees) {
               nees[0].pose, nees[0].map, nees[1].pose, nees[1].map, nees[2].pose, nees[2].map);
 }
 
-// The aim is 0.8 to 1.3 after the closure too; 5.1 and 6.5 were measured, of the ekf 318 and 437: half a ring
-// that turns by a twentieth of a radian is no longer where it was linear.
+// The aim is 0.8 to 1.3 after the closure too; 5.1 and 6.5 were measured, of the ekf 318 and 437: what has
+// turned by much as the ring closed is no longer where it was linear.
 TEST(LongRing, KnowsHowFarOffItIsUntilItClosesAndBetterThanTheEkfFromThenOn) {
   std::vector<AboutClosure> of_seif;
   std::vector<AboutClosure> of_ekf;
