@@ -125,6 +125,8 @@ LogNoise default_noise(LogFormat format) {
 std::string default_settings(LogFormat format) {
   // Some of the other filters would take hours over a long log.
   if (format == LogFormat::own) return "estimators: {ekf: {}, seif: {}, seif_report: {}}";
+  if (format == LogFormat::victoria_park)  // trees without names
+    return "estimators: {ekf: {association: joint}, seif: {association: joint}}";
   if (format == LogFormat::mrclam)  // with misread barcodes
     return "estimators: {ekf: {gate: 30}, seif: {gate: 30}}";
   return "estimators: {ekf: {}, seif: {}}";
