@@ -18,7 +18,7 @@ constexpr int fewest_expected = 40;               // [-] scans before a landmark
 constexpr std::size_t most_suspicions = 32;       // [-] at a time
 constexpr int scans_to_merge = 5;                 // [-] that saw one of two
 constexpr int never = -1'000'000;                 // [-] of these, for two that were seen at once
-// Of how far and how wide the robot has seen: within these a landmark should be seen.
+// Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
 
@@ -120,17 +120,15 @@ void AssociatingFilter::gather_near(const Observation& observation, const Eigen:
   const Eigen::Matrix2d by_sensor =
       inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
   const Eigen::Matrix2d in_world = inverse.J_wrt_pose * P_x * inverse.J_wrt_pose.transpose() + by_sensor;
-  seen_.push_back({inverse.p_world_landmark, largest_variance(by_sensor), false});
+  const double variance = largest_variance(in_world);
+  seen_.push_back(
+      {inverse.p_world_landmark, largest_variance(by_sensor), std::sqrt(variance * matcher_.gate())});
   // The landmark is taken to be known no worse than this.
-  const double radius = std::sqrt(2.0 * largest_variance(in_world) * matcher_.widest_gate());
+  const double radius = std::sqrt(2.0 * variance * matcher_.widest_gate());
   grid_->find_near(inverse.p_world_landmark, radius, most, near_);
   for (const LandmarkGrid::Near& near : near_) {
-    if (filter_->is_at_hand(near.landmark)) {
+    if (filter_->is_at_hand(near.landmark))
       pairs_.push_back({static_cast<int>(seen_.size()) - 1, number_of(near.landmark)});
-    } else {
-      seen_.back().waits = true;
-      if (wanted_.size() < most_wanted) wanted_.push_back(near.landmark);
-    }
   }
 }
 
@@ -156,6 +154,7 @@ void AssociatingFilter::name(const Scan& scan) {
     ++seen.seen;
     ++seen.expected;
     seen.last_seen = scan_;
+    seen.farthest = std::max(seen.farthest, scan.observations[i].range);
     named_.observations.push_back(scan.observations[i]);
     named_.observations.back().landmark = names_[i];
   }
@@ -166,12 +165,25 @@ LandmarkId AssociatingFilter::name_if_new(std::size_t observation) {
   if (matcher_.may_be_known(static_cast<int>(observation))) return no_landmark;
   const Seen& seen = seen_[observation];
   const TentativeLandmarks::Sighting sighting = tentative_.see(seen.p_world, seen.variance, matcher_.gate());
-  if (sighting.times < options_.admit_after || (seen.waits && sighting.age < patience)) return no_landmark;
+  if (sighting.times < options_.admit_after) return no_landmark;
+  if (want_near(seen) && sighting.age < patience) return no_landmark;
   tentative_.admit_last();
   const auto id = static_cast<LandmarkId>(landmarks_.size());
   landmarks_.push_back({});
   grid_->add(seen.p_world);
   return id;
+}
+
+/// What may be of it and is not at hand; whether there is such.
+bool AssociatingFilter::want_near(const Seen& seen) {
+  grid_->find_near(seen.p_world, seen.radius_by_pose, most_per_observation, near_);
+  std::erase_if(near_, [&](const LandmarkGrid::Near& near) {
+    return is_seen_now(near.landmark) || filter_->is_at_hand(near.landmark);
+  });
+  for (const LandmarkGrid::Near& near : near_) {
+    if (wanted_.size() < most_wanted) wanted_.push_back(near.landmark);
+  }
+  return !near_.empty();
 }
 
 // Those that should have been seen.
@@ -182,7 +194,7 @@ void AssociatingFilter::note_expected() {
     if (is_seen_now(id)) continue;
     const Eigen::Vector2d p_sensor = T_sensor_world * filter_->mean_of(id);
     const bool is_in_view =
-        p_sensor.norm() <= sure_reach * reach_ &&
+        p_sensor.norm() <= sure_reach * landmark(id).farthest &&
         std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
     if (!is_in_view) continue;
     const int expected = ++landmark(id).expected;

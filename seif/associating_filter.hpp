@@ -72,6 +72,7 @@ class AssociatingFilter final : public Estimator {
     int seen = 0;      // [-] scans that saw it
     int expected = 0;  // [-] scans that should have
     int last_seen = 0;
+    double farthest = 0.0;  // [m] from which it was seen
     bool is_retired = false;
   };
   /// Two landmarks that may be one, since only one of them is seen where both should be.
@@ -79,6 +80,11 @@ class AssociatingFilter final : public Estimator {
     LandmarkId a, b;
     int scans = 0;  // [-] that saw one of them; many below zero once both were seen at once
     int last_scan = 0;
+  };
+  struct Seen {
+    Eigen::Vector2d p_world;  // [m] where the observation says that something is
+    double variance;          // [m^2] of that, by the sensor's errors alone
+    double radius_by_pose;    // [m] within which the landmark may be, as far as the pose is uncertain
   };
   Landmark& landmark(LandmarkId id) { return landmarks_[static_cast<std::size_t>(id)]; }
   const Landmark& landmark(LandmarkId id) const { return landmarks_[static_cast<std::size_t>(id)]; }
@@ -90,6 +96,7 @@ class AssociatingFilter final : public Estimator {
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most);
   void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t most);
   int number_of(LandmarkId id);
+  bool want_near(const Seen& seen);
   void name(const Scan& scan);
   LandmarkId name_if_new(std::size_t observation);
   void note_expected();
@@ -123,12 +130,7 @@ class AssociatingFilter final : public Estimator {
     int landmark;  // its number among asked_
   };
   std::vector<Pair> pairs_;  // of observations and landmarks near them
-  struct Seen {
-    Eigen::Vector2d p_world;  // [m] where the observation says that something is
-    double variance;          // [m^2] of that, by the sensor's errors alone
-    bool waits;               // a landmark near it is not at hand
-  };
-  std::vector<Seen> seen_;  // by observation
+  std::vector<Seen> seen_;   // by observation
   std::int64_t blocks_touched_ = 0;
   Eigen::MatrixXd Sigma_;  // of [pose | asked_], with room to grow
 };
