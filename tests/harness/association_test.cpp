@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fixtures.hpp"
+#include "harness/csv_reader.hpp"
 #include "harness/score/details.hpp"
 #include "harness/score/true_names.hpp"
 
