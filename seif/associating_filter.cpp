@@ -37,7 +37,15 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<AssociableFilter> filter, c
       options_(options),
       matcher_(options.match_probability, options.new_probability),
       merge_gate_(chi_square_gate(1, options.merge_probability)),
-      tentative_(options.forget_after) {}
+      tentative_(options.forget_after) {
+  // More than scans mostly need, so that none comes to ask for more when the map is long known.
+  suspicions_.reserve(most_suspicions);
+  for (auto* ids : {&at_hand_, &asked_, &wanted_}) ids->reserve(4 * most_asked);
+  near_.reserve(4 * most_asked);
+  pairs_.reserve(16 * most_asked);
+  const auto room = static_cast<Eigen::Index>(3 + 2 * most_asked);
+  Sigma_.resize(room, room);
+}
 
 void AssociatingFilter::motion_update(const Odometry& odometry) {
   const Eigen::Matrix3d& R = odometry.covariance;

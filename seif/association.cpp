@@ -40,6 +40,11 @@ ScanMatcher::ScanMatcher(double match_probability, double new_probability, int m
     : far_(chi_square_gate(1, new_probability)), most_steps_(most_steps) {
   for (std::size_t pairs = 0; pairs <= most_pairs; ++pairs)
     gates_.push_back(pairs == 0 ? 0.0 : chi_square_gate(static_cast<int>(pairs), match_probability));
+  candidates_.reserve(4 * most_pairs);
+  match_.reserve(most_pairs);
+  taken_.reserve(4 * most_pairs);
+  for (auto* numbers : {&first_, &order_, &chosen_, &pairs_, &best_.chosen}) numbers->reserve(most_pairs);
+  responses_.resize(2 * most_pairs, 8 * most_pairs);
 }
 
 void ScanMatcher::reserve(std::size_t observations) {

@@ -177,8 +177,12 @@ void CondensationTree::covariance(const InformationState& state, std::span<const
                                   Eigen::Ref<Eigen::MatrixXd> out) const {
   const int w = state.window_size();
   const auto n = static_cast<Eigen::Index>(3 + 2 * slots.size());
-  if (by_factor_.rows() < w || by_factor_.cols() < n)
-    by_factor_.resize(std::max<Eigen::Index>(2 * w, by_factor_.rows()), std::max(2 * n, by_factor_.cols()));
+  if (by_factor_.rows() < w || by_factor_.cols() < n) {
+    constexpr Eigen::Index room =
+        128;  // mostly enough, so that it does not come to grow when the map is long known
+    by_factor_.resize(std::max({room, Eigen::Index{2} * w, by_factor_.rows()}),
+                      std::max({room, 2 * n, by_factor_.cols()}));
+  }
   auto Y = by_factor_.topLeftCorner(w, n);
   Y.setZero();
   Y.topLeftCorner<3, 3>().setIdentity();

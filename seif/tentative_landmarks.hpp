@@ -17,7 +17,7 @@ class TentativeLandmarks {
   };
 
   /// Forgets what was not seen in so many scans.
-  explicit TentativeLandmarks(int forget_after) : forget_after_(forget_after) {}
+  explicit TentativeLandmarks(int forget_after) : forget_after_(forget_after) { places_.reserve(most); }
 
   /// The next scan. `wander` is by how much the robot may have gone astray since the last one [m^2].
   void begin_scan(double wander);

@@ -242,7 +242,11 @@ class Metered final : public AssociableFilter {
   }
   void landmarks_at_hand(std::vector<LandmarkId>& out) const override { seif_.landmarks_at_hand(out); }
   bool is_at_hand(LandmarkId landmark) const override { return seif_.is_at_hand(landmark); }
-  Eigen::Vector2d mean_of(LandmarkId landmark) const override { return seif_.mean_of(landmark); }
+  Eigen::Vector2d mean_of(LandmarkId landmark) const override {
+    Eigen::Vector2d mean;
+    meter([&] { mean = seif_.mean_of(landmark); });
+    return mean;
+  }
   ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override {
     return seif_.expect(landmark, observation);
   }
@@ -262,7 +266,7 @@ class Metered final : public AssociableFilter {
 
  private:
   template <class Step>
-  void meter(const Step& step) {
+  void meter(const Step& step) const {
     const long before = allocations();
     step();
     allocated_ += allocations() - before;
