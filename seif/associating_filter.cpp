@@ -97,7 +97,7 @@ void AssociatingFilter::find_pairs(const Scan& scan) {
   for (const std::size_t most : {few_per_observation, each}) {
     find_candidates(scan, P_x, most);
     options_.jointly ? matcher_.match_jointly() : matcher_.match_nearest();
-    if (matcher_.all_matched()) return;
+    if (matcher_.all_matched() || each == few_per_observation) return;
   }
 }
 

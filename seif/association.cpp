@@ -79,6 +79,8 @@ double ScanMatcher::add(int observation, int landmark, const ExpectedObservation
   response += Sigma_.middleCols<2>(row).lazyProduct(expected.J_m.transpose());
   Candidate candidate{.observation = observation, .landmark = landmark, .expected = expected};
   candidate.S = expected.J_x * response.topRows<3>() + expected.J_m * response.middleRows<2>(row) + Q;
+  if (!(candidate.S(0, 0) > 0.0 && candidate.S.determinant() > 0.0))
+    return std::numeric_limits<double>::infinity();
   candidate.squared_distance = expected.v.dot(candidate.S.inverse() * expected.v);
   candidate.cost = candidate.squared_distance + std::log(candidate.S.determinant());
   // Written so that what is not a number is no candidate either.

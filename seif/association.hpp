@@ -59,8 +59,8 @@ class ScanMatcher {
   /// The landmark that an observation was paired with, or none.
   int match(int observation) const { return match_[static_cast<std::size_t>(observation)]; }
   bool all_matched() const { return std::ranges::find(match_, none) == match_.end(); }
-  /// Whether an observation that was paired with none may still be of a landmark, given all pairs: of one that
-  /// was not paired either, or as a second observation of one that was.
+  /// Whether an observation that was paired with none may still be of a landmark, given all pairs: of one
+  /// that was not paired either, or as a second observation of one that was.
   bool may_be_known(int observation);
   double gate() const { return gate(1); }  // [-] of one pair
   double widest_gate() const { return std::max(far_, gate(1)); }
