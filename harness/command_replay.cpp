@@ -53,6 +53,7 @@ void add_replay(CommandLine line) {
       "  seifbed replay my_log --estimators ekf,seif --out /tmp/mine\n"
       "  seifbed replay MRCLAM_Dataset6 --robot 3 --set noise.range_sd_m=0.15\n"
       "  seifbed replay victoria_park.txt --estimators seif\n"
+      "  seifbed replay victoria_park --set estimators.seif.association=nearest\n"
       "  seifbed replay cityTrees10000.txt --truth cityTrees10000_groundtruth.txt\n"
       "A folder with a world.yaml is replayed with the estimators and options that stand there; any other "
       "with\n"

@@ -61,11 +61,14 @@ std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
     if (type == nullptr) throw BadInput(fmt::format("there is no estimator of type '{}'", choice.type));
     const seif::EstimatorSetup setup{log.start, log.T_robot_sensor,
                                      sensors::random_stream(seed, "estimator/" + choice.name)};
-    estimators.push_back({choice.name,
-                          type->make(setup, choice.options),
-                          choice.odometry_sd_factor,
-                          choice.observation_sd_factor,
-                          {}});
+    std::unique_ptr<seif::Estimator> filter = type->make(setup, choice.options);
+    if (!log.known_association && filter->needs_names())
+      throw BadInput(fmt::format(
+          "{}: the observations of {} do not say which landmark they are of, and this estimator needs that; "
+          "ekf and seif do not with --set estimators.{}.association=joint",
+          choice.name, log.name, choice.name));
+    estimators.push_back(
+        {choice.name, std::move(filter), choice.odometry_sd_factor, choice.observation_sd_factor, {}});
   }
   return estimators;
 }
@@ -93,7 +96,8 @@ LiveLoop::LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener
       listeners_(std::move(listeners)),
       log_(log),
       scoring_(scoring),
-      times_(believers.estimators.size()) {
+      times_(believers.estimators.size()),
+      true_names_(believers.estimators.size()) {
   counts_.t = log.start_t;
   for (const LiveEstimator& estimator : believers.estimators)
     blocks_touched_.push_back(estimator.filter->counts().blocks_touched);
@@ -187,6 +191,10 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.mean_residual = counts.mean_residual;
   record.anchoring = counts.anchoring;
   record.times = times_[index];
+  if (!estimator.filter->needs_names()) {
+    record.associations = estimator.filter->associations();
+    true_names_[index].add(*record.associations, event.true_ids);
+  }
   times_[index] = {};
   for (RunListener* listener : listeners_) listener->update(index, record);
 }
@@ -205,7 +213,7 @@ void LiveLoop::score_consistency() {
     LiveEstimator& estimator = believers_.estimators[i];
     if (!estimator.failure.empty()) continue;
     std::optional<ConsistencyRecord> record;
-    guard(estimator, counts_.t, [&] { record = consistency_of(estimator); });
+    guard(estimator, counts_.t, [&] { record = consistency_of(i); });
     if (!record) continue;
     for (RunListener* listener : listeners_) listener->consistency(i, *record);
   }
@@ -217,15 +225,28 @@ const TrueLandmark* LiveLoop::true_landmark(seif::LandmarkId id) const {
   return it != log_.landmarks->end() && it->landmark == id ? &*it : nullptr;
 }
 
-ConsistencyRecord LiveLoop::consistency_of(const LiveEstimator& estimator) const {
+/// The names that the world has for the landmarks of a map.
+std::vector<seif::LandmarkId> LiveLoop::true_ids_of(std::size_t index,
+                                                    std::span<const seif::LandmarkEstimate> map) const {
+  std::vector<seif::LandmarkId> ids;
+  for (const seif::LandmarkEstimate& landmark : map) {
+    const bool is_named = believers_.estimators[index].filter->needs_names();
+    ids.push_back(is_named ? landmark.landmark : true_names_[index].of(landmark.landmark));
+  }
+  return ids;
+}
+
+ConsistencyRecord LiveLoop::consistency_of(std::size_t index) const {
+  const LiveEstimator& estimator = believers_.estimators[index];
   const std::vector<seif::LandmarkEstimate> map = estimator.filter->map();
   std::vector<seif::LandmarkId> ids;
   std::vector<Eigen::Vector2d> errors;
-  for (const seif::LandmarkEstimate& landmark : map) {
-    const TrueLandmark* truth = true_landmark(landmark.landmark);
+  const std::vector<seif::LandmarkId> true_ids = true_ids_of(index, map);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const TrueLandmark* truth = true_landmark(true_ids[i]);
     if (truth == nullptr) continue;
-    ids.push_back(landmark.landmark);
-    errors.push_back(landmark.mean - truth->position);
+    ids.push_back(map[i].landmark);
+    errors.push_back(map[i].mean - truth->position);
   }
   std::vector<seif::LandmarkId> sampled_ids;
   std::vector<Eigen::Vector2d> sampled_errors;

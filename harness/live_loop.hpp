@@ -13,6 +13,7 @@
 
 #include "harness/log_description.hpp"
 #include "harness/run_listener.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/stream.hpp"
 #include "seif/estimator.hpp"
 #include "seif/registry.hpp"
@@ -30,8 +31,8 @@ struct LiveEstimator {
 };
 
 /// Makes the estimators that a world asks for. Each draws from a stream of its own, (seed,
-/// "estimator/<name>"). Throws BadInput if a type is not registered, or a name stands twice or is not fit for
-/// a file name.
+/// "estimator/<name>"). Throws BadInput if a type is not registered, a name stands twice or is not fit for
+/// a file name, or an estimator needs names that the log's observations do not have.
 std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
                                            std::span<const worlds::EstimatorChoice> choices,
                                            const LogDescription& log, std::uint64_t seed);
@@ -84,7 +85,9 @@ class LiveLoop {
   void motion_update(std::size_t index, const seif::Odometry& odometry);
   void measurement_update(std::size_t index, const ScanEvent& event);
   const seif::Scan& scaled(const seif::Scan& scan, double sd_factor);
-  ConsistencyRecord consistency_of(const LiveEstimator& estimator) const;
+  std::vector<seif::LandmarkId> true_ids_of(std::size_t index,
+                                            std::span<const seif::LandmarkEstimate> map) const;
+  ConsistencyRecord consistency_of(std::size_t index) const;
   const TrueLandmark* true_landmark(seif::LandmarkId id) const;
   void tell_map(std::size_t index);
 
@@ -99,6 +102,7 @@ class LiveLoop {
   std::optional<seif::Pose2> last_true_pose_;  // at the last event
   std::vector<UpdateTimes> times_;             // of each estimator since the last scan
   std::vector<std::int64_t> blocks_touched_;   // [-] by each estimator until the last scan
+  std::vector<TrueNames> true_names_;          // of each estimator that gives names of its own
   seif::Scan scaled_scan_;                     // reused from scan to scan
 
   // Of the measurement update that runs now.

@@ -114,11 +114,6 @@ LogStream::LogStream(const std::filesystem::path& folder)
       observation_rows_(folder / "observations.csv",
                         {{"t", "landmark", "range", "bearing"}, {"cov_rr", "cov_rb", "cov_bb"}}) {
   read_yaml(folder / "log.yaml", description_);
-  if (!description_.known_association) {
-    throw BadInput(
-        fmt::format("{}: association: unknown: these estimators need observations that name their landmark",
-                    (folder / "log.yaml").string()));
-  }
   if (std::filesystem::exists(folder / "truth.csv")) {
     truth_.emplace(folder / "truth.csv", description_.longest_truth_gap);
     description_.has_truth = true;
@@ -203,7 +198,8 @@ void LogStream::add_observation(ScanEvent& event) {
   if (seen.size() == largest_scan)
     observation_rows_.fail(0, fmt::format("more than {} observations at one time", largest_scan));
   const seif::Observation now = observation();
-  if (std::ranges::find(seen, now.landmark, &seif::Observation::landmark) != seen.end())
+  if (now.landmark != seif::no_landmark &&
+      std::ranges::find(seen, now.landmark, &seif::Observation::landmark) != seen.end())
     observation_rows_.fail(landmark_column,
                            fmt::format("landmark {} stands twice in one scan", now.landmark));
   seen.push_back(now);
@@ -215,10 +211,14 @@ void LogStream::add_observation(ScanEvent& event) {
 
 seif::Observation LogStream::observation() const {
   const CsvReader& row = observation_rows_;
-  if (row.is_empty(landmark_column))
-    row.fail(landmark_column, "is missing: these estimators need observations that name their landmark");
   seif::Observation observation;
-  observation.landmark = static_cast<seif::LandmarkId>(row.integer(landmark_column, 0, largest_id));
+  if (description_.known_association) {
+    if (row.is_empty(landmark_column))
+      row.fail(landmark_column, "is missing; in log.yaml stands association: known");
+    observation.landmark = static_cast<seif::LandmarkId>(row.integer(landmark_column, 0, largest_id));
+  } else if (!row.is_empty(landmark_column)) {
+    row.fail(landmark_column, "must be empty; in log.yaml stands association: unknown");
+  }
   observation.range = row.number(range_column);
   if (observation.range < 0.0) row.fail(range_column, "is negative");
   observation.bearing = seif::wrap_angle(row.number(bearing_column));

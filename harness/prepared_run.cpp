@@ -55,11 +55,6 @@ PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, con
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
   set_stream(run, open_log(log));
-  if (!run.log->known_association)
-    throw BadInput(
-        fmt::format("{}: nothing in this log says which landmark an observation is of, and the "
-                    "present estimators need that",
-                    log.path.string()));
   set_estimators(run, world, registry);
   run.plan.name = run.log->name;
   return run;

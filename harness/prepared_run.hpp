@@ -24,7 +24,7 @@ struct PreparedRun {
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry);
 
 /// Estimators, scoring and seed are the world's; the rest is recorded. Throws BadInput for a log whose
-/// observations do not name their landmark, too.
+/// observations do not name their landmark and an estimator that needs that, too.
 PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry);
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry);

@@ -64,6 +64,7 @@ RebuiltConsistency::RebuiltConsistency(const Believers& believers, const LogDesc
     : believers_(believers),
       log_(log),
       sample_(static_cast<std::size_t>(sample)),
+      true_names_(believers.estimators.size()),
       gathered_(believers.estimators.size()) {}
 
 void RebuiltConsistency::note_truth(const std::optional<TruePose>& truth) {
@@ -73,11 +74,17 @@ void RebuiltConsistency::note_truth(const std::optional<TruePose>& truth) {
 
 void RebuiltConsistency::scan(const ScanEvent& event) {
   note_truth(event.truth);
+  true_ids_ = event.true_ids;
   if (!std::exchange(scan_is_due_, false)) return;
   for (std::size_t i = 0; i < gathered_.size(); ++i) {
     const LiveEstimator& estimator = believers_.estimators[i];
-    if (estimator.failure.empty()) add_innovations(estimator, event.scan, gathered_[i]);
+    if (estimator.failure.empty() && estimator.filter->needs_names())
+      add_innovations(estimator, event.scan, gathered_[i]);
   }
+}
+
+void RebuiltConsistency::update(std::size_t estimator, const UpdateRecord& record) {
+  if (record.associations) true_names_.at(estimator).add(*record.associations, true_ids_);
 }
 
 void RebuiltConsistency::add_innovations(const LiveEstimator& estimator, const seif::Scan& scan,
@@ -92,13 +99,14 @@ void RebuiltConsistency::add_innovations(const LiveEstimator& estimator, const s
   if (const auto value = nees(nu, S)) gathered.scans.push_back({*value, static_cast<int>(nu.size())});
 }
 
-std::vector<std::pair<seif::LandmarkId, PointPair>> RebuiltConsistency::sample_of(
-    const LiveEstimator& estimator) const {
+std::vector<std::pair<seif::LandmarkId, PointPair>> RebuiltConsistency::sample_of(std::size_t index) const {
+  const seif::Estimator& filter = *believers_.estimators[index].filter;
   std::vector<std::pair<seif::LandmarkId, PointPair>> known;
-  for (const seif::LandmarkEstimate& landmark : estimator.filter->map()) {
-    const auto truth =
-        std::ranges::lower_bound(*log_.landmarks, landmark.landmark, {}, &TrueLandmark::landmark);
-    if (truth != log_.landmarks->end() && truth->landmark == landmark.landmark)
+  for (const seif::LandmarkEstimate& landmark : filter.map()) {
+    const seif::LandmarkId id =
+        filter.needs_names() ? landmark.landmark : true_names_[index].of(landmark.landmark);
+    const auto truth = std::ranges::lower_bound(*log_.landmarks, id, {}, &TrueLandmark::landmark);
+    if (truth != log_.landmarks->end() && truth->landmark == id)
       known.push_back({landmark.landmark, {landmark.mean, truth->position}});
   }
   std::vector<std::pair<seif::LandmarkId, PointPair>> sample;
@@ -111,7 +119,7 @@ void RebuiltConsistency::consistency(std::size_t index, const ConsistencyRecord&
   gathered.last.clear();
   if (!true_pose_ || !log_.landmarks) return;
   const LiveEstimator& estimator = believers_.estimators[index];
-  const auto sample = sample_of(estimator);
+  const auto sample = sample_of(index);
   std::vector<seif::LandmarkIds> each;
   for (const auto& [id, pair] : sample) each.push_back({id});
   const auto joint = estimator.filter->joint_covariances(each);

@@ -12,6 +12,7 @@
 #include "harness/live_loop.hpp"
 #include "harness/run_listener.hpp"
 #include "harness/score/rebuilt.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/summary.hpp"
 #include "seif/registry.hpp"
 
@@ -25,7 +26,7 @@ class RebuiltConsistency final : public RunListener {
 
   void odometry(const OdometryEvent& event) override { note_truth(event.truth); }
   void scan(const ScanEvent& event) override;
-  void update(std::size_t /*estimator*/, const UpdateRecord& /*record*/) override {}
+  void update(std::size_t estimator, const UpdateRecord& record) override;
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override;
   void scored() override { scan_is_due_ = true; }
 
@@ -43,14 +44,16 @@ class RebuiltConsistency final : public RunListener {
   void note_truth(const std::optional<TruePose>& truth);
   void add_innovations(const LiveEstimator& estimator, const seif::Scan& scan, Gathered& gathered) const;
   /// The sample of landmarks whose truth is known, beside it.
-  std::vector<std::pair<seif::LandmarkId, PointPair>> sample_of(const LiveEstimator& estimator) const;
+  std::vector<std::pair<seif::LandmarkId, PointPair>> sample_of(std::size_t index) const;
 
   const Believers& believers_;
   const LogDescription& log_;
   std::size_t sample_;  // [-]
   bool scan_is_due_ = false;
-  std::optional<seif::Pose2> true_pose_;  // at the last event
-  std::vector<Gathered> gathered_;        // by estimator
+  std::optional<seif::Pose2> true_pose_;    // at the last event
+  std::vector<seif::LandmarkId> true_ids_;  // of the latest scan
+  std::vector<TrueNames> true_names_;       // by estimator
+  std::vector<Gathered> gathered_;          // by estimator
 };
 
 /// A replay that does not come to what was recorded.

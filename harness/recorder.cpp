@@ -145,6 +145,20 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
   files.times.value(record.t).value(record.times.update);
   for (const std::optional<double>& stage : record.times.stages) write_if_known(files.times, stage);
   files.times.end_row();
+  if (record.associations) associations(files, record);
+}
+
+/// Row by row as observations.csv.
+void Recorder::associations(EstimatorFiles& files, const UpdateRecord& record) const {
+  if (!files.associations)
+    files.associations.emplace(folder_ / (files.name + "_associations.csv"), "t,landmark");
+  CsvWriter& file = *files.associations;
+  if (record.associations->empty()) file.value(record.t).empty().end_row();
+  for (const seif::LandmarkId name : *record.associations) {
+    file.value(record.t);
+    name == seif::no_landmark ? file.empty() : file.value(std::int64_t{name});
+    file.end_row();
+  }
 }
 
 void Recorder::consistency(std::size_t estimator, const ConsistencyRecord& record) {
@@ -181,6 +195,7 @@ void Recorder::for_each_file(void (CsvWriter::*action)()) {
   for (EstimatorFiles& files : estimators_) {
     for (CsvWriter* file : {&files.trajectory, &files.steps, &files.times, &files.consistency})
       (file->*action)();
+    if (files.associations) (*files.associations.*action)();
   }
 }
 

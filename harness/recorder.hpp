@@ -49,11 +49,13 @@ class Recorder final : public RunListener {
     CsvWriter steps;
     CsvWriter times;
     CsvWriter consistency;
+    std::optional<CsvWriter> associations = {};  // of one that gives names of its own
   };
 
   EstimatorFiles open_estimator(const std::string& name) const;
   void truth(const std::optional<TruePose>& truth);
   void observation(double t, const seif::Observation& observation);
+  void associations(EstimatorFiles& files, const UpdateRecord& record) const;
   void for_each_file(void (CsvWriter::*action)());
 
   std::filesystem::path folder_;

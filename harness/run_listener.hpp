@@ -34,6 +34,8 @@ struct UpdateRecord {
   std::optional<double> mean_residual;            // [-] as in seif::Counts
   std::optional<double> anchoring;                // [nat] so far
   UpdateTimes times;
+  /// What Estimator::associations() tells, of an estimator that does not need names. As long as the call.
+  std::optional<std::span<const seif::LandmarkId>> associations;
 };
 
 /// How well an estimator's belief fits the truth, at a scoring time. NEES per degree of freedom: 1 is right.

@@ -6,6 +6,7 @@
 
 #include "harness/csv_reader.hpp"
 #include "harness/log_stream.hpp"
+#include "harness/score/true_names.hpp"
 
 namespace harness {
 
@@ -21,12 +22,24 @@ void score_trajectory(const std::filesystem::path& folder, double rpe_interval, 
 
 void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, bool is_known,
                EstimatorScore& score) {
-  const std::vector<MapRecord> map = read_map(folder, score.name);
-  score.landmarks_mapped = static_cast<int>(map.size());
+  const ScoredMap map = read_scored_map(folder, score.name);
+  const int mapped = static_cast<int>(map.landmarks.size()) + map.duplicates;
+  score.landmarks_mapped = mapped;
   if (!is_known) return;
-  const std::vector<PointPair> points = pair_landmarks(map, truth);
+  const std::vector<PointPair> points = pair_landmarks(map.landmarks, truth);
   score.landmarks = score_points(points);
-  score.landmarks_spurious = static_cast<int>(map.size() - points.size());
+  score.landmarks_spurious = mapped - static_cast<int>(points.size());
+}
+
+void score_associations(const std::filesystem::path& folder, EstimatorScore& score) {
+  const std::optional<Associations> associations = read_associations(folder, score.name);
+  if (!associations) return;
+  const auto share = [](std::int64_t part, std::int64_t whole) {
+    return whole > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
+  };
+  const auto& [named, left_out, names] = *associations;
+  score.associations_left_out = share(left_out, named + left_out);
+  if (names) score.associations_right = share(names->right(), named);
 }
 
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
@@ -164,6 +177,7 @@ RunScore score_folder(const std::filesystem::path& folder, std::span<const std::
     score.name = name;
     score_trajectory(folder, rpe_interval, score);
     score_map(folder, landmarks, landmarks_are_known, score);
+    score_associations(folder, score);
     score_steps(folder, score);
     score_times(folder, score);
     score_consistency(folder, score);

@@ -75,6 +75,18 @@ std::string gate_line(const Summary& summary) {
   return text.empty() ? text : text + '\n';
 }
 
+/// What the estimators that give names of their own made of the observations; empty without such.
+std::string association_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (!score.associations_left_out) continue;
+    text += fmt::format("\nAssociations of {}: {} % right, {} % of the observations left out", score.name,
+                        number(score.associations_right, 2, 100.0),
+                        number(score.associations_left_out, 2, 100.0));
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 }  // namespace
 
 std::vector<TextRow> accuracy_table(const Summary& summary) {
@@ -99,7 +111,7 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + gate_line(summary);
+  text += log_line(summary) + gate_line(summary) + association_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

@@ -44,6 +44,8 @@ sensors::LandmarkSensor make_landmark_sensor(const worlds::World& world) {
   options.bearing_sd = sensor.bearing_sd;
   options.miss_probability = sensor.miss_probability;
   options.false_detections = sensor.false_detections;
+  options.misread_probability = sensor.misread_probability;
+  options.hides_ids = sensor.ids == worlds::LandmarkIds::hidden;
   options.first_false_id = static_cast<seif::LandmarkId>(world.landmarks.size());
   return {options, sensors::random_stream(world.seed, "landmark_sensor")};
 }
@@ -112,7 +114,9 @@ LogDescription SimulatedStream::describe() const {
   log.start = draw_start(world_);
   log.has_truth = true;
   log.has_wheel_angles = true;
-  log.has_true_ids = sensor.false_detections > 0.0;
+  log.known_association = sensor.ids == worlds::LandmarkIds::known;
+  log.has_true_ids =
+      !log.known_association || sensor.false_detections > 0.0 || sensor.misread_probability > 0.0;
   log.true_start = truth();
   log.landmarks.emplace();
   for (const worlds::Landmark& landmark : world_.landmarks) {

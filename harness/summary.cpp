@@ -64,6 +64,10 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
   json["gated"] = count(score.gated);
+  if (score.associations_left_out) {
+    json["associations_right"] = number(score.associations_right);
+    json["associations_left_out"] = number(score.associations_left_out);
+  }
   json["mean_residual"] = percentiles(score.mean_residual);
   json["anchoring_nat"] = number(score.anchoring);
   json["active_max"] = count(score.active_max);

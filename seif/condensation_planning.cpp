@@ -20,6 +20,7 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   };
   for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
   for (const int slot : slots) want(place(slot).leaf);
+  for (const int slot : wanted_) want(place(slot).leaf);
   const std::optional<Pose2> elsewhere = state.other_linearisation_pose();
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once

@@ -65,7 +65,9 @@ bool CondensationTree::activate(InformationState& state, std::vector<int>& slots
   view_ = std::max(range, kept * view_);
   for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
   for (const int slot : slots) node(place(slot).leaf).used = scan_;
+  for (const int slot : wanted_) node(place(slot).leaf).used = scan_;
   if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
+  wanted_.clear();
   if (plan_.is_running && !work_on_plan(state)) return false;
   waited_ += static_cast<std::int64_t>(std::erase_if(slots, [&](int slot) { return !is_ready(slot); }));
   zone_places_.clear();
@@ -167,6 +169,44 @@ bool CondensationTree::solve_window(InformationState& state) {
   state.touch(2 * state.window_blocks());
   ++epoch_;
   return true;
+}
+
+/// With L of Omega + S = L L' and columns Y that take a step of the window to one of pose or landmark, of
+/// those that are not active by -W': the covariance is (L^-1 Y)' (L^-1 Y), and F_PP^-1 beside it.
+void CondensationTree::covariance(const InformationState& state, std::span<const int> slots,
+                                  Eigen::Ref<Eigen::MatrixXd> out) const {
+  const int w = state.window_size();
+  const auto n = static_cast<Eigen::Index>(3 + 2 * slots.size());
+  if (by_factor_.rows() < w || by_factor_.cols() < n) {
+    constexpr Eigen::Index room =
+        128;  // mostly enough, so that it does not come to grow when the map is long known
+    by_factor_.resize(std::max({room, Eigen::Index{2} * w, by_factor_.rows()}),
+                      std::max({room, 2 * n, by_factor_.cols()}));
+  }
+  auto Y = by_factor_.topLeftCorner(w, n);
+  Y.setZero();
+  Y.topLeftCorner<3, 3>().setIdentity();
+  Eigen::Index col = 3;
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    if (const int p = state.position(slot); p >= 0) {
+      Y.block<2, 2>(InformationState::row_of(p), col).setIdentity();
+    } else {
+      for (int p_active = 0; p_active < state.active_count(); ++p_active)
+        Y.block<2, 2>(InformationState::row_of(p_active), col) =
+            -zone_.block(place(state.active(p_active)).hot, h);
+    }
+    col += 2;
+  }
+  state.work().triangularView<Eigen::Lower>().solveInPlace(Y);
+  out.noalias() = Y.transpose() * Y;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      if (state.position(slots[i]) >= 0 || state.position(slots[j]) >= 0) continue;
+      out.block<2, 2>(static_cast<Eigen::Index>(3 + 2 * i), static_cast<Eigen::Index>(3 + 2 * j)) -=
+          zone_.block(place(slots[i]).hot, place(slots[j]).hot);
+    }
+  }
 }
 
 // Means. Reading leaves no trace: what it finds goes to read_, and holds until epoch_ counts on. Following

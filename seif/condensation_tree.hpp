@@ -73,6 +73,21 @@ class CondensationTree {
   /// p_world_landmark, in O(log N). [m]
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
 
+  // Of landmarks in the zone, straight after solve_window():
+
+  bool is_in_zone(int slot) const { return place(slot).hot != none; }
+  template <class Visit>
+  void for_each_in_zone(Visit&& visit) const {
+    for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
+  }
+  /// Of [pose | landmarks] by all that is known, (Omega + S)^-1 and how those that are not active follow, to
+  /// `out` (3+2m x 3+2m). Takes the factor that solve_window() leaves in the state's work().
+  void covariance(const InformationState& state, std::span<const int> slots,
+                  Eigen::Ref<Eigen::MatrixXd> out) const;
+
+  /// The next zone is to hold this landmark.
+  void want(int slot) { wanted_.push_back(slot); }
+
   std::int64_t blocks_touched() const { return blocks_touched_ + zone_.blocks_touched(); }
   /// Observations of known landmarks that have been left out since these had to wait. [-]
   std::int64_t waited() const { return waited_; }
@@ -199,7 +214,9 @@ class CondensationTree {
   std::vector<int> hot_leaves_;
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
   std::vector<int> zone_places_;
-  double view_ = 0.0;  // how far the robot sees [m]
+  std::vector<int> wanted_;            // slots
+  mutable Eigen::MatrixXd by_factor_;  // scratch (w x 3+2m), with room to grow
+  double view_ = 0.0;                  // how far the robot sees [m]
   mutable std::vector<int> owners_;
   std::int64_t epoch_ = 1;
   std::int64_t zone_followed_at_ = 0;  // epoch, as below

@@ -39,6 +39,7 @@ void Ekf::motion_update(const Odometry& odometry) {
 }
 
 void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
+  if (!update_equal()) throw NumericalFailure("merging", scan.t);
   pending_.clear();
   for (const Observation& observation : scan.observations) pending_.push_back(&observation);
   while (!pending_.empty()) {  // once more only if a new landmark was seen twice
@@ -116,6 +117,13 @@ bool Ekf::update_known() {
         known.J.leftCols<3>() * W.topRows<3>() + known.J.rightCols<2>() * W.middleRows<2>(known.row);
     S_.block<2, 2>(2 * i, 2 * i) += known.Q;
   }
+  return apply_gain(2 * k);
+}
+
+/// Of `observed` quantities with W_ = Sigma C, S_ and v_.
+bool Ekf::apply_gain(int observed) {
+  const int n = size();
+  auto W = W_.topLeftCorner(n, observed);
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(S_);
   if (llt.info() != Eigen::Success) return false;
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(W);
@@ -125,6 +133,59 @@ bool Ekf::update_known() {
   downdate_(Sigma_, W);
   blocks_touched_ += std::int64_t{landmark_count() + 1} * (landmark_count() + 2) / 2;
   return true;
+}
+
+/// m_a - m_b = 0, as if it had been observed.
+bool Ekf::update_equal() {
+  for (const auto& [a, b] : equal_) {
+    const int n = size();
+    const int row_a = row_of(index_.find(a).value());
+    const int row_b = row_of(index_.find(b).value());
+    if (W_.rows() < n || W_.cols() < 2) W_.resize(Sigma_.rows(), std::max<Eigen::Index>(2, W_.cols()));
+    auto W = W_.topLeftCorner(n, 2);
+    gather_columns<2>(row_a, 3);
+    W = columns_.topRows(n).rightCols<2>();
+    gather_columns<2>(row_b, 3);
+    W -= columns_.topRows(n).rightCols<2>();
+    S_.resize(2, 2);
+    S_ = W.middleRows<2>(row_a) - W.middleRows<2>(row_b);
+    S_.diagonal().array() += equal_sd * equal_sd;
+    v_.resize(2);
+    v_ = mu_.segment<2>(row_b) - mu_.segment<2>(row_a);
+    if (!apply_gain(2)) return false;
+  }
+  equal_.clear();
+  return true;
+}
+
+void Ekf::equate(LandmarkId a, LandmarkId b) { equal_.emplace_back(a, b); }
+
+Eigen::Vector2d Ekf::mean_of(LandmarkId landmark) const {
+  return mu_.segment<2>(row_of(index_.find(landmark).value()));
+}
+
+ExpectedObservation Ekf::expect(LandmarkId landmark, const Observation& observation) const {
+  const PredictedObservation predicted = predict_observation(pose(), T_robot_sensor_, mean_of(landmark));
+  return {innovation(observation, predicted.z), predicted.J_wrt_pose, predicted.J_wrt_landmark};
+}
+
+void Ekf::covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const {
+  out.topLeftCorner<3, 3>() = *pose_covariance();
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const int row = row_of(index_.find(landmarks[i]).value());
+    const auto to = static_cast<Eigen::Index>(3 + 2 * i);
+    out.block<2, 3>(to, 0) = Sigma_.block<2, 3>(row, 0);
+    out.block<3, 2>(0, to) = out.block<2, 3>(to, 0).transpose();
+    out.block<2, 2>(to, to) = Sigma_.block<2, 2>(row, row).selfadjointView<Eigen::Lower>();
+    for (std::size_t j = 0; j < i; ++j) {
+      const int other = row_of(index_.find(landmarks[j]).value());
+      const auto col = static_cast<Eigen::Index>(3 + 2 * j);
+      const Eigen::Matrix2d block = row > other ? Eigen::Matrix2d(Sigma_.block<2, 2>(row, other))
+                                                : Eigen::Matrix2d(Sigma_.block<2, 2>(other, row).transpose());
+      out.block<2, 2>(to, col) = block;
+      out.block<2, 2>(col, to) = block.transpose();
+    }
+  }
 }
 
 /// Sigma grows by G Sigma_x., with G the Jacobian of the inverse observation.

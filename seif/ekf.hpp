@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
+#include "seif/associable_filter.hpp"
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
 #include "seif/symmetric_downdate.hpp"
@@ -18,7 +20,7 @@ struct EkfOptions {
 
 /// Covariance form; all known landmarks of a scan in one update, on the lower triangle alone. O(N^2) for each
 /// update.
-class Ekf final : public Estimator {
+class Ekf final : public AssociableFilter {
  public:
   /// Throws std::invalid_argument if the start covariance is not positive definite.
   explicit Ekf(const EstimatorSetup& setup, const EkfOptions& options = {});
@@ -38,6 +40,14 @@ class Ekf final : public Estimator {
       std::span<const LandmarkId> landmarks) const override;
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override;
+
+  void begin_association(double /*t*/) override {}
+  void landmarks_at_hand(std::vector<LandmarkId>& out) const override { out = ids_; }
+  bool is_at_hand(LandmarkId landmark) const override { return index_.find(landmark).has_value(); }
+  Eigen::Vector2d mean_of(LandmarkId landmark) const override;
+  ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override;
+  void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
+  void equate(LandmarkId a, LandmarkId b) override;
 
   /// The whole belief, for oracles: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
   Eigen::VectorXd mu() const { return mu_.head(size()); }
@@ -60,6 +70,8 @@ class Ekf final : public Estimator {
   template <int Width>
   void gather_columns(int row, int to);
   [[nodiscard]] bool update_known();
+  [[nodiscard]] bool apply_gain(int observed);
+  [[nodiscard]] bool update_equal();
   void add_landmark(const Observation& observation);
   void reserve(int landmarks);
 
@@ -71,6 +83,7 @@ class Ekf final : public Estimator {
   Eigen::VectorXd v_;                                 // scratch (2k x 1)
   SymmetricDowndate downdate_;
   std::vector<Linearised> known_;
+  std::vector<std::pair<LandmarkId, LandmarkId>> equal_;
   std::vector<const Observation*> pending_;
   std::vector<const Observation*> unknown_;
   std::vector<LandmarkId> ids_;  // by slot

@@ -81,8 +81,7 @@ class NumericalFailure : public std::runtime_error {
   }
 };
 
-/// A SLAM filter with known correspondence, driven with one stream of odometry and scans in the order of
-/// time.
+/// A SLAM filter, driven with one stream of odometry and scans in the order of time.
 class Estimator {
  public:
   virtual ~Estimator() = default;
@@ -93,6 +92,13 @@ class Estimator {
   /// Takes in a scan, and does all that follows (sparsification, mean recovery). A scan may be empty.
   /// Landmarks never seen before join the map. Calls `done` after each stage. May throw NumericalFailure.
   virtual void measurement_update(const Scan& scan, const StageDone& done) = 0;
+
+  /// Whether every observation must name its landmark. A filter that finds out by itself says no.
+  virtual bool needs_names() const { return true; }
+
+  /// Of a filter that finds out by itself: which landmark of its map it took each observation of the latest
+  /// scan for, in their order; no_landmark: left out. Empty of others: what the observation says.
+  virtual std::span<const LandmarkId> associations() const { return {}; }
 
   /// T_world_robot as now believed.
   virtual Pose2 pose() const = 0;

@@ -43,8 +43,9 @@ class InformationState {
 
   /// Scratch for the steps, as large as the window, so that none of them allocates. Holds nothing between
   /// steps.
-  auto work() { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
-  auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
+  auto work() { return work_.topLeftCorner(window_size(), window_size()); }        // (w x w)
+  auto work() const { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
+  auto work_columns() { return work_columns_.topRows(window_size()); }             // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
   /// The mean of the pose as a motion predicts it; the caller keeps r. Returns by how much the pose that

@@ -6,13 +6,14 @@
 namespace seif {
 namespace {
 
-ObservationFactor unlinearised(const InformationState& state, int slot, const Observation& observation) {
+ObservationFactor unlinearised(const InformationState& state, int slot, const Eigen::Vector2d& mean,
+                               const Observation& observation) {
   ObservationFactor factor;
   factor.slot = slot;
   factor.observation = observation;
   factor.Q_inverse = observation.covariance.inverse();
   factor.x0 = state.pose();
-  factor.m0 = state.mean(slot);
+  factor.m0 = mean;
   return factor;
 }
 
@@ -45,7 +46,12 @@ void add_scaled(InformationState& state, const ObservationFactor& factor, double
 
 ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
                             const Pose2& T_robot_sensor) {
-  ObservationFactor factor = unlinearised(state, slot, observation);
+  return linearise(state, slot, state.mean(slot), observation, T_robot_sensor);
+}
+
+ObservationFactor linearise(const InformationState& state, int slot, const Eigen::Vector2d& mean,
+                            const Observation& observation, const Pose2& T_robot_sensor) {
+  ObservationFactor factor = unlinearised(state, slot, mean, observation);
   const PredictedObservation predicted = predict_observation(factor.x0, T_robot_sensor, factor.m0);
   factor.v = innovation(observation, predicted.z);
   factor.J_x = predicted.J_wrt_pose;
@@ -56,7 +62,7 @@ ObservationFactor linearise(const InformationState& state, int slot, const Obser
 
 ObservationFactor linearise_at_measurement(const InformationState& state, int slot,
                                            const Observation& observation, const Pose2& T_robot_sensor) {
-  ObservationFactor factor = unlinearised(state, slot, observation);
+  ObservationFactor factor = unlinearised(state, slot, state.mean(slot), observation);
   const Eigen::Vector2d seen_at = invert_observation(factor.x0, T_robot_sensor, observation).p_world_landmark;
   const PredictedObservation predicted = predict_observation(factor.x0, T_robot_sensor, seen_at);
   factor.J_x = predicted.J_wrt_pose;

@@ -24,6 +24,9 @@ struct ObservationFactor {
 /// Linearised at the mean of the state; with first estimates, what turning the pose does is taken from them.
 ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
                             const Pose2& T_robot_sensor);
+/// The same of a passive landmark whose mean the state does not know, but the caller. p_world_landmark [m]
+ObservationFactor linearise(const InformationState& state, int slot, const Eigen::Vector2d& mean,
+                            const Observation& observation, const Pose2& T_robot_sensor);
 
 /// Linearised where the sensor says that the landmark is, seen from the mean of the pose: for a pose so wrong
 /// that the direction in which it believes the landmark to lie is useless, as after a long loop.

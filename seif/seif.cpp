@@ -56,6 +56,11 @@ void Seif::activate_known(const Scan& scan) {
     range = std::max(range, observation.range);
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
+  for (const auto& [a, b] : equal_) {
+    for (const int slot : {a, b}) {
+      if (std::ranges::find(seen_, slot) == seen_.end()) seen_.push_back(slot);
+    }
+  }
   if (by_tree_ && !tree_.activate(state_, seen_, range)) throw NumericalFailure("activation", scan.t);
   for (const int slot : seen_) {
     if (state_.position(slot) < 0) mean_.activate(state_, slot);
@@ -63,8 +68,36 @@ void Seif::activate_known(const Scan& scan) {
   }
 }
 
+/// m_a - m_b = 0, of landmarks that are active. Where their first estimates lie apart, turning everything
+/// must move this as it moves them, or the filter would learn a heading from it.
+void Seif::add_equal() {
+  for (const auto& [a, b] : equal_) {
+    if (state_.position(a) < 0 || state_.position(b) < 0) continue;
+    const Eigen::Vector2d apart = state_.mean(a) - state_.mean(b);
+    Eigen::Vector2d lever = Eigen::Vector2d::Zero();
+    if (state_.uses_first_estimates())
+      lever = state_.lever(a, state_.mean(a)) - state_.lever(b, state_.mean(b));
+    Eigen::Matrix<double, 2, 7> J;  // wrt [x y theta a b]
+    J << Eigen::Matrix2d::Zero(), Eigen::Vector2d(lever.y(), -lever.x()), Eigen::Matrix2d::Identity(),
+        -Eigen::Matrix2d::Identity();
+    const int rows[] = {0, 1,
+                        2, InformationState::row_of(state_.position(a)),
+                        0, InformationState::row_of(state_.position(b)),
+                        0};
+    const auto row = [&](int i) { return i == 4 || i == 6 ? rows[i - 1] + 1 : rows[i]; };
+    constexpr double weight = 1.0 / (equal_sd * equal_sd);
+    for (int i = 0; i < 7; ++i) {
+      for (int j = 0; j < 7; ++j) state_.Omega()(row(i), row(j)) += weight * J.col(i).dot(J.col(j));
+      state_.r()(row(i)) -= weight * J.col(i).dot(apart);
+    }
+    state_.touch(6);
+  }
+  equal_.clear();
+}
+
 /// All linearised before the first is added.
 void Seif::add_known(const Scan& scan) {
+  add_equal();
   factors_.clear();
   for (const Observation& observation : scan.observations) {
     const std::optional<int> slot = state_.find(observation.landmark);
@@ -181,6 +214,38 @@ void Seif::recover_mean(double t) {
   if (!(options_.mean_recovery == SeifMean::exact ? solve_mean(state_) : mean_.correct(state_))) {
     throw NumericalFailure("mean recovery", t);
   }
+}
+
+void Seif::landmarks_at_hand(std::vector<LandmarkId>& out) const {
+  out.clear();
+  tree_.for_each_in_zone([&](int slot) { out.push_back(state_.id(slot)); });
+}
+
+bool Seif::is_at_hand(LandmarkId landmark) const {
+  const auto slot = state_.find(landmark);
+  return slot && tree_.is_in_zone(*slot);
+}
+
+Eigen::Vector2d Seif::mean_of(LandmarkId landmark) const { return mean(state_.find(landmark).value()); }
+
+ExpectedObservation Seif::expect(LandmarkId landmark, const Observation& observation) const {
+  const ObservationFactor factor =
+      linearise(state_, state_.find(landmark).value(), mean_of(landmark), observation, T_robot_sensor_);
+  return {factor.v, factor.J_x, factor.J_m};
+}
+
+void Seif::covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const {
+  asked_.clear();
+  for (const LandmarkId landmark : landmarks) asked_.push_back(state_.find(landmark).value());
+  tree_.covariance(state_, asked_, out);
+}
+
+void Seif::want(std::span<const LandmarkId> landmarks) {
+  for (const LandmarkId landmark : landmarks) tree_.want(state_.find(landmark).value());
+}
+
+void Seif::equate(LandmarkId a, LandmarkId b) {
+  equal_.emplace_back(state_.find(a).value(), state_.find(b).value());
 }
 
 Eigen::Vector2d Seif::mean(int slot) const {

@@ -1,8 +1,10 @@
 // Our sparse extended information filter: constant time, and as accurate and as consistent as the dense ones.
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "seif/associable_filter.hpp"
 #include "seif/condensation_tree.hpp"
 #include "seif/estimator.hpp"
 #include "seif/information_state.hpp"
@@ -48,7 +50,7 @@ struct SeifOptions {
 /// - condenses all that is not near the robot along a tree (condensation_tree), or moves groups of landmarks
 /// of
 ///   every size, each update a few (multilevel_mean).
-class Seif final : public Estimator {
+class Seif final : public AssociableFilter {
  public:
   /// Throws std::invalid_argument if the start covariance is not positive definite, and for a gate without
   /// the tree.
@@ -69,12 +71,23 @@ class Seif final : public Estimator {
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override;
 
+  // Need mean_recovery tree, as the gate does. At hand is what stands in the zone.
+  void begin_association(double t) override { solve_window(t); }
+  void landmarks_at_hand(std::vector<LandmarkId>& out) const override;
+  bool is_at_hand(LandmarkId landmark) const override;
+  Eigen::Vector2d mean_of(LandmarkId landmark) const override;
+  ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override;
+  void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
+  void want(std::span<const LandmarkId> landmarks) override;
+  void equate(LandmarkId a, LandmarkId b) override;
+
   const InformationState& state() const { return state_; }
   const CondensationTree& tree() const { return tree_; }
 
  private:
   Eigen::Vector2d mean(int slot) const;
   void activate_known(const Scan& scan);
+  void add_equal();
   void add_known(const Scan& scan);
   void leave_out_gated(double t);
   double squared_mahalanobis(const ObservationFactor& factor);
@@ -96,6 +109,8 @@ class Seif final : public Estimator {
   Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow
   std::vector<ObservationFactor> factors_;                // of the latest scan
   std::vector<int> seen_, to_drop_;                       // slots; kept so that no update allocates
+  std::vector<std::pair<int, int>> equal_;                // slots
+  mutable std::vector<int> asked_;                        // slots
 };
 
 }  // namespace seif

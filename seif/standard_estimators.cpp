@@ -2,8 +2,12 @@
 
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "seif/associating_filter.hpp"
 #include "seif/eif.hpp"
 #include "seif/ekf.hpp"
 #include "seif/eseif.hpp"
@@ -64,6 +68,68 @@ int integer(const Options& options, const OptionSpec& spec) {
 
 const std::map<std::string, SeifMean> seif_means{
     {"multilevel", SeifMean::multilevel}, {"tree", SeifMean::tree}, {"exact", SeifMean::exact}};
+
+// Finding out which landmark is seen.
+
+const OptionSpec association{.key = "association",
+                             .fallback = std::string("known"),
+                             .choices = {"known", "nearest", "joint"},
+                             .help =
+                                 "Which landmark is seen: as the observation says; each for itself the "
+                                 "nearest that is compatible; or the "
+                                 "most that are compatible together, whatever the observations say."};
+const OptionSpec match_probability{.key = "match_probability",
+                                   .fallback = AssociationOptions{}.match_probability,
+                                   .min = 1e-12,
+                                   .max = 0.5,
+                                   .help = "With an association: that a right pair is left out [-]."};
+const OptionSpec new_probability{
+    .key = "new_probability",
+    .fallback = AssociationOptions{}.new_probability,
+    .min = 1e-15,
+    .max = 0.5,
+    .help = "With an association: that what is of a known landmark is taken for something new [-]."};
+const OptionSpec admit_after{
+    .key = "admit_after",
+    .fallback = std::int64_t{AssociationOptions{}.admit_after},
+    .min = 1,
+    .max = 1000,
+    .help = "With an association: scans that must have seen it before a landmark joins the map [-]."};
+const OptionSpec forget_after{
+    .key = "forget_after",
+    .fallback = std::int64_t{AssociationOptions{}.forget_after},
+    .min = 1,
+    .max = 100'000,
+    .help = "With an association: scans without it after which it is forgotten, until it has joined [-]."};
+const OptionSpec remove_below{.key = "remove_below",
+                              .fallback = AssociationOptions{}.remove_below,
+                              .min = 0.0,
+                              .max = 1.0,
+                              .help =
+                                  "With an association: a landmark that was seen in less than this share of "
+                                  "the scans that should have seen "
+                                  "it is taken out; 0: never [-]."};
+
+std::vector<OptionSpec> with_association(std::vector<OptionSpec> options) {
+  options.insert(options.end(),
+                 {association, match_probability, new_probability, admit_after, forget_after, remove_below});
+  return options;
+}
+
+/// The filter itself where associations are known.
+std::unique_ptr<Estimator> associating(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
+                                       const Options& options) {
+  const auto& how = option<std::string>(options, association.key);
+  if (how == "known") return filter;
+  return std::make_unique<AssociatingFilter>(
+      std::move(filter), setup,
+      AssociationOptions{.jointly = how == "joint",
+                         .match_probability = option<double>(options, match_probability.key),
+                         .new_probability = option<double>(options, new_probability.key),
+                         .admit_after = integer(options, admit_after),
+                         .forget_after = integer(options, forget_after),
+                         .remove_below = option<double>(options, remove_below.key)});
+}
 
 EstimatorType seif_report() {
   return {
@@ -161,8 +227,9 @@ EstimatorType seif() {
           .help =
               "Ours: gauge-free sparsification, null space from first estimates, mean along a tree; constant "
               "time.",
-          .options = {theta_x, theta_max, first_estimates, relinearise_above, closing_gate, gate,
-                      mean_recovery, other_groups, relaxed_groups, tree_unknowns, tree_grain, tree_blocks},
+          .options = with_association({theta_x, theta_max, first_estimates, relinearise_above, closing_gate,
+                                       gate, mean_recovery, other_groups, relaxed_groups, tree_unknowns,
+                                       tree_grain, tree_blocks}),
           .make = [=](const EstimatorSetup& setup, const Options& options) {
             SeifOptions chosen;
             chosen.theta_x = integer(options, theta_x);
@@ -177,7 +244,10 @@ EstimatorType seif() {
             chosen.tree.most_unknowns = integer(options, tree_unknowns);
             chosen.tree.most_blocks = integer(options, tree_blocks);
             chosen.tree.grain = option<double>(options, tree_grain.key);
-            return std::make_unique<Seif>(setup, chosen);
+            if (chosen.mean_recovery != SeifMean::tree &&
+                option<std::string>(options, association.key) != "known")
+              throw std::invalid_argument("association needs mean_recovery: tree");
+            return associating(std::make_unique<Seif>(setup, chosen), setup, options);
           }};
 }
 
@@ -185,9 +255,11 @@ EstimatorType ekf() {
   return {
       .name = "ekf",
       .help = "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline.",
-      .options = {gate},
+      .options = with_association({gate}),
       .make = [](const EstimatorSetup& setup, const Options& options) {
-        return std::make_unique<Ekf>(setup, EkfOptions{.gate = option<double>(options, gate.key)});
+        return associating(
+            std::make_unique<Ekf>(setup, EkfOptions{.gate = option<double>(options, gate.key)}), setup,
+            options);
       }};
 }
 

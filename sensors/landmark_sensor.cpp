@@ -1,5 +1,6 @@
 #include "sensors/landmark_sensor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,9 @@ void check(const LandmarkSensorOptions& options) {
   }
   if (!(options.miss_probability >= 0.0 && options.miss_probability <= 1.0)) {
     throw std::invalid_argument("landmark sensor: the miss probability must be in [0, 1]");
+  }
+  if (!(options.misread_probability >= 0.0 && options.misread_probability <= 1.0)) {
+    throw std::invalid_argument("landmark sensor: the misread probability must be in [0, 1]");
   }
   if (!(options.false_detections >= 0.0 && std::isfinite(options.false_detections))) {
     throw std::invalid_argument(
@@ -36,6 +40,7 @@ void LandmarkSensor::scan(double t, const seif::Pose2& T_world_robot,
   scan.t = t;
   scan.observations.clear();
   true_ids.clear();
+  misreadings_.clear();
   const seif::Pose2 T_world_sensor = T_world_robot * options_.T_robot_sensor;
   const seif::Pose2 T_sensor_world = inverse(T_world_sensor);
   const Eigen::Vector2d p_world_sensor(T_world_sensor.x, T_world_sensor.y);
@@ -48,7 +53,10 @@ void LandmarkSensor::scan(double t, const seif::Pose2& T_world_robot,
       detect(truth, range, bearing, scan, true_ids);
     }
   }
+  misread_ids(scan);
   detect_falsely(scan, true_ids);
+  if (!options_.hides_ids) return;
+  for (seif::Observation& observation : scan.observations) observation.landmark = seif::no_landmark;
 }
 
 /// Measures a visible landmark. A missed one draws its noise too: what the stream gives to the next landmark
@@ -58,6 +66,9 @@ void LandmarkSensor::detect(const LandmarkTruth& truth, double range, double bea
   const bool missed = uniform_(random_) < options_.miss_probability;
   const double range_error = std::sqrt(range_variance(range)) * standard_normal_(random_);
   const double bearing_error = options_.bearing_sd * standard_normal_(random_);
+  const bool may_misread = options_.misread_probability > 0.0 && options_.first_false_id > 0;
+  const bool misread = may_misread && uniform_(random_) < options_.misread_probability;
+  const double which = may_misread ? uniform_(random_) : 0.0;
   if (missed) {
     return;
   }
@@ -66,6 +77,24 @@ void LandmarkSensor::detect(const LandmarkTruth& truth, double range, double bea
   scan.observations.push_back(
       observation(truth.landmark, std::abs(range + range_error), seif::wrap_angle(bearing + bearing_error)));
   true_ids.push_back(truth.landmark);
+  if (misread)
+    misreadings_.push_back(
+        {scan.observations.size() - 1,
+         static_cast<seif::LandmarkId>(which * static_cast<double>(options_.first_false_id))});
+}
+
+/// Each misread observation gets the first id from the drawn one on that nothing in the scan bears, so that
+/// no two bear the same; none if there is none.
+void LandmarkSensor::misread_ids(seif::Scan& scan) const {
+  const auto is_borne = [&](seif::LandmarkId id) {
+    return std::ranges::find(scan.observations, id, &seif::Observation::landmark) != scan.observations.end();
+  };
+  for (const Misreading& misreading : misreadings_) {
+    seif::LandmarkId id = misreading.drawn;
+    for (std::size_t tries = 0; is_borne(id) && tries < scan.observations.size(); ++tries)
+      id = (id + 1) % options_.first_false_id;
+    if (!is_borne(id)) scan.observations[misreading.observation].landmark = id;
+  }
 }
 
 /// Poisson many, uniform over the area of the field of view: the density of ranges grows with the range.

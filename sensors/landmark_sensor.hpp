@@ -1,4 +1,5 @@
-// A range-bearing landmark sensor: field of view, occlusion, noise, misses, false detections.
+// A range-bearing landmark sensor: field of view, occlusion, noise, misses, false detections, ids that are
+// misread or withheld.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +22,9 @@ struct LandmarkSensorOptions {
   double bearing_sd = 0.0087;           // [rad]
   double miss_probability = 0.0;        // [-] that a visible landmark is not reported
   double false_detections = 0.0;        // [-] mean number in a scan (Poisson)
-  seif::LandmarkId first_false_id =
-      0;  // false detections count up from here: no landmark may have such an id
+  seif::LandmarkId first_false_id = 0;  // false detections count up from here: landmarks have ids below it
+  double misread_probability = 0.0;     // [-] that an observation bears another landmark's id
+  bool hides_ids = false;               // observations bear no id
 };
 
 /// A landmark that may be in view.
@@ -42,8 +44,8 @@ class LandmarkSensor {
 
   /// Fills `scan` with what is seen from the true pose. `candidates` holds at least every landmark within
   /// range, in a fixed order. `true_ids` gets the true landmark of each observation, no_landmark for a false
-  /// detection. Landmarks come in the order of the candidates, then the false detections. Allocates only
-  /// while the two vectors still grow.
+  /// detection, whatever id the observation bears. No id stands twice in a scan. Landmarks come in the order
+  /// of the candidates, then the false detections. Allocates only while the vectors still grow.
   void scan(double t, const seif::Pose2& T_world_robot, std::span<const LandmarkTruth> candidates,
             const LineOfSight& line_of_sight, seif::Scan& scan, std::vector<seif::LandmarkId>& true_ids);
 
@@ -51,6 +53,7 @@ class LandmarkSensor {
   seif::Observation observation(seif::LandmarkId landmark, double range, double bearing) const;
   void detect(const LandmarkTruth& truth, double range, double bearing, seif::Scan& scan,
               std::vector<seif::LandmarkId>& true_ids);
+  void misread_ids(seif::Scan& scan) const;
   void detect_falsely(seif::Scan& scan, std::vector<seif::LandmarkId>& true_ids);
   double range_variance(double range) const;
 
@@ -59,6 +62,11 @@ class LandmarkSensor {
   std::normal_distribution<double> standard_normal_;
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
   seif::LandmarkId next_false_id_ = 0;
+  struct Misreading {
+    std::size_t observation;
+    seif::LandmarkId drawn;
+  };
+  std::vector<Misreading> misreadings_;  // of the latest scan
 };
 
 }  // namespace sensors

@@ -30,6 +30,7 @@ constexpr std::size_t most_filmed = 2;     // [-] estimators side by side
 constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
                                                         "serpentine", "explore",   "commands"};
 constexpr std::array<std::string_view, 2> engine_names = {"bullet", "kinematic"};
+constexpr std::array<std::string_view, 2> landmark_ids_names = {"known", "hidden"};
 constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_disk", "grid",
                                                            "ring",    "clusters",     "corridor"};
 constexpr std::array<std::string_view, 5> camera_names = {"overview", "chase", "orbit", "top", "fixed"};
@@ -333,6 +334,13 @@ void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
                 "that a visible landmark is not reported");
   fields.number("false_detections_per_scan", sensor.false_detections, between(0, 1000),
                 "mean number (Poisson)");
+  std::string ids = name_of(landmark_ids_names, sensor.ids);
+  fields.choice(
+      "ids", ids, {landmark_ids_names.begin(), landmark_ids_names.end()},
+      "whether an observation tells which landmark it is of; hidden wants estimators with an association");
+  sensor.ids = enum_of<LandmarkIds>(landmark_ids_names, ids);
+  fields.number("misread_probability", sensor.misread_probability, between(0, 1),
+                "that an observation bears another landmark's id");
 }
 
 void describe_estimator(Fields& fields, EstimatorChoice& choice, const EstimatorSchemas& schemas) {

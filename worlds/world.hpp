@@ -115,7 +115,9 @@ struct Encoders {
   bool calibrated = false;         // no systematic error, whatever the four values above say
 };
 
-/// A range-bearing sensor that knows which landmark it sees.
+enum class LandmarkIds { known, hidden };
+
+/// A range-bearing sensor that knows which landmark it sees, unless it is told not to.
 struct LandmarkSensor {
   int rate = 5;                      // [Hz] of scans
   Placement mount;                   // T_robot_sensor
@@ -126,6 +128,8 @@ struct LandmarkSensor {
   double bearing_sd = 0.5 * degree;  // [rad]
   double miss_probability = 0.0;     // [-] that a visible landmark is not reported
   double false_detections = 0.0;     // [-] mean number in a scan (Poisson), with ids that no landmark has
+  double misread_probability = 0.0;  // [-] that an observation bears another landmark's id
+  LandmarkIds ids = LandmarkIds::known;
 };
 
 /// The start estimate is drawn from N(truth, P0), P0 diagonal.

@@ -150,6 +150,9 @@ void add_sighting(const Sighting& sighting, int landmark, std::string& text) {
 
 RecordedGraph read_graph(const std::filesystem::path& run, const std::string& estimator) {
   LogStream stream(run);
+  if (!stream.description().known_association)
+    throw BadInput(fmt::format(
+        "{}: its observations do not say which landmark they are of, so there is no graph", run.string()));
   GraphBuilder builder(stream.description(), read_trajectory(run, estimator), read_map(run, estimator));
   for (Event event; stream.next(event);) std::visit([&](const auto& e) { builder.take(e); }, event);
   return std::move(builder).graph();

@@ -65,12 +65,16 @@ BeliefView::BeliefView(const LiveEstimator& estimator, Rgb colour, double start,
 }
 
 void BeliefView::scan(const ScanEvent& event) {
+  if (!estimator_.filter->needs_names()) return;
   for (const seif::Observation& z : event.scan.observations) {
     if (!means_.position(z.landmark)) new_.push_back(z.landmark);
   }
 }
 
 void BeliefView::update(const UpdateRecord& record) {
+  for (const seif::LandmarkId landmark : estimator_.filter->associations()) {
+    if (landmark != seif::no_landmark && !means_.position(landmark)) new_.push_back(landmark);
+  }
   t_ = record.t;
   links_ = record.links;
   pose_ = record.est_pose;

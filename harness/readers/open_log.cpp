@@ -125,6 +125,10 @@ LogNoise default_noise(LogFormat format) {
 std::string default_settings(LogFormat format) {
   // Some of the other filters would take hours over a long log.
   if (format == LogFormat::own) return "estimators: {ekf: {}, seif: {}, seif_report: {}}";
+  if (format == LogFormat::victoria_park) {  // trees without names, and much that is none
+    const std::string chosen = "{association: joint, admit_after: 8, forget_after: 5, remove_below: 0.2}";
+    return fmt::format("estimators: {{ekf: {0}, seif: {0}}}", chosen);
+  }
   if (format == LogFormat::mrclam)  // with misread barcodes
     return "estimators: {ekf: {gate: 30}, seif: {gate: 30}}";
   return "estimators: {ekf: {}, seif: {}}";

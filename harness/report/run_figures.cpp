@@ -12,6 +12,7 @@
 #include "harness/log_stream.hpp"
 #include "harness/report/downsampling.hpp"
 #include "harness/score/chi_square.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/score_folder.hpp"
 
 namespace harness {
@@ -59,7 +60,7 @@ using Ids = std::set<seif::LandmarkId>;
 
 void add_map(const std::filesystem::path& folder, const Drawn& estimator, const Ids& left_out,
              Figure& figure) {
-  std::vector<MapRecord> map = read_map(folder, estimator.name);
+  std::vector<MapRecord> map = read_scored_map(folder, estimator.name).landmarks;
   std::erase_if(map, [&](const MapRecord& landmark) { return left_out.contains(landmark.landmark); });
   Points points;
   for (const std::size_t i : spread_sample(map.size(), most_landmarks))

@@ -5,6 +5,7 @@
 #include "harness/csv_reader.hpp"
 #include "harness/log_stream.hpp"
 #include "harness/score/chi_square.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/score_folder.hpp"
 
 namespace harness {
@@ -57,8 +58,11 @@ void score_trajectory(std::span<const PosePair> poses, const DetailChoices& choi
 void score_map(const std::filesystem::path& folder, std::span<const PosePair> poses, const RunFacts& facts,
                EstimatorDetails& details) {
   if (!facts.landmarks) return;
-  const std::vector<MapRecord> map = read_map(folder, details.name);
+  const ScoredMap scored = read_scored_map(folder, details.name);
+  const std::vector<MapRecord>& map = scored.landmarks;
   details.map = count_landmarks(map, *facts.landmarks, facts.seen);
+  details.map->spurious += scored.duplicates;
+  details.map->duplicate += scored.duplicates;
   const std::vector<PointPair> points = pair_landmarks(map, *facts.landmarks);
   if (!poses.empty()) details.landmark_rmse_from_robot = rmse_from_robot(points, poses.back());
   std::vector<double> values;

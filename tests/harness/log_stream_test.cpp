@@ -132,6 +132,23 @@ TEST(LogStream, TrueIdsStandBesideTheObservations) {
   EXPECT_EQ(scan(events[5]).true_ids, std::vector<seif::LandmarkId>{4});
 }
 
+TEST(LogStream, WithUnknownAssociationNoObservationNamesItsLandmark) {
+  const TemporaryFolder folder;
+  write_log(folder);
+  write_file(folder / "log.yaml",
+             "name: a\nassociation: unknown\nrange_sd_m: 0.1\nbearing_sd_rad: 0.02\n"
+             "start: {x_m: 0, y_m: 0, theta_rad: 0, cov_xx: 1, cov_yy: 1, cov_tt: 1}\n");
+  write_file(folder / "observations.csv",
+             "t,landmark,range,bearing\n0.7,,2,0.1\n0.7,,2,0.1\n1,,,\n1.5,,3,0\n");
+  LogStream stream(folder.path());
+  EXPECT_FALSE(stream.description().known_association);
+  const std::vector<Event> events = read_all(stream);
+  ASSERT_EQ(scan(events[1]).scan.observations.size(), 2U) << "two trees may look the same";
+  for (const seif::Observation& z : scan(events[1]).scan.observations)
+    EXPECT_EQ(z.landmark, seif::no_landmark);
+  EXPECT_TRUE(scan(events[3]).scan.observations.empty());
+}
+
 struct BrokenLog {
   const char* file;
   std::string text;
@@ -211,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
         BrokenLog{"log.yaml",
                   "name: a\nassociation: unknown\nrange_sd_m: 1\nbearing_sd_rad: 1\n"
                   "start: {x_m: 0, y_m: 0, theta_rad: 0, cov_xx: 1, cov_yy: 1, cov_tt: 1}\n",
-                  "log.yaml: association: unknown"},
+                  "landmark: must be empty; in log.yaml stands association: unknown"},
         BrokenLog{"log.yaml",
                   "name: a\nrange_sd_m: -1\nbearing_sd_rad: 1\n"
                   "start: {x_m: 0, y_m: 0, theta_rad: 0, cov_xx: 1, cov_xy: 2, cov_yy: 1, cov_tt: 1}\n",

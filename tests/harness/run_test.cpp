@@ -80,6 +80,18 @@ TEST(Run, AReplayGivesTheSameBytesButForTimes) {
   EXPECT_EQ(compared, 16);  // eight of the log and its trajectories, four of each estimator
 }
 
+TEST(Run, AnEstimatorThatNeedsNamesIsRefusedWhereThereAreNone) {
+  const TemporaryFolder folder;
+  worlds::World world = small_world();
+  world.landmark_sensor.ids = worlds::LandmarkIds::hidden;
+  try {
+    run_live(world, folder / "live");
+    FAIL() << "was accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("do not say which landmark"), std::string::npos) << error.what();
+  }
+}
+
 // Scored like any other, the same each time, and a replay gives what the live run gave.
 TEST(Run, InTheKinematicEngineIsARunLikeAnyOther) {
   const TemporaryFolder folder;
@@ -307,6 +319,26 @@ TEST(SimulatedStream, KinematicMotionIsWhatPerfectEncodersReckon) {
     ASSERT_NEAR(seif::wrap_angle(reckoned.theta - truth.theta), 0.0, 1e-11);
   }
   EXPECT_GT(driven, 8.0);
+}
+
+TEST(SimulatedStream, MayWithholdIdsAndKeepsTheTrueOnesForTheScore) {
+  worlds::World world = small_world();
+  world.landmark_sensor.ids = worlds::LandmarkIds::hidden;
+  SimulatedStream stream(world, {});
+  EXPECT_FALSE(stream.description().known_association);
+  EXPECT_TRUE(stream.description().has_true_ids);
+  int seen = 0;
+  Event event;
+  while (stream.next(event)) {
+    const auto* scan = std::get_if<ScanEvent>(&event);
+    if (scan == nullptr) continue;
+    for (std::size_t i = 0; i < scan->true_ids.size(); ++i) {
+      EXPECT_EQ(scan->scan.observations.at(i).landmark, seif::no_landmark);
+      EXPECT_NE(scan->true_ids[i], seif::no_landmark);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 100);
 }
 
 TEST(SimulatedStream, FalseDetectionsHaveIdsThatNoLandmarkHas) {

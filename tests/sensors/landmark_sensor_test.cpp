@@ -221,6 +221,48 @@ TEST(LandmarkSensor, FalseDetectionsHaveIdsThatNothingElseHas) {
   EXPECT_GT(expected, first_false_id);
 }
 
+TEST(LandmarkSensor, MayWithholdItsIdsAndMeasuresTheSame) {
+  LandmarkSensorOptions options = options_with_false_ids();
+  options.false_detections = 1.0;
+  const std::vector<LandmarkTruth> landmarks = {{0, {1, 1}}, {4, {2, -1}}};
+  const Seen named = look(options, landmarks);
+  options.hides_ids = true;
+  const Seen nameless = look(options, landmarks);
+  EXPECT_EQ(nameless.true_ids, named.true_ids);
+  ASSERT_EQ(nameless.scan.observations.size(), named.scan.observations.size());
+  for (std::size_t k = 0; k < named.scan.observations.size(); ++k) {
+    EXPECT_EQ(nameless.scan.observations[k].landmark, seif::no_landmark);
+    EXPECT_EQ(nameless.scan.observations[k].range, named.scan.observations[k].range);
+  }
+}
+
+TEST(LandmarkSensor, MisreadsAsOftenAsItIsTold) {
+  LandmarkSensorOptions options;
+  options.first_false_id = 20;
+  options.misread_probability = 0.1;
+  std::vector<LandmarkTruth> landmarks;
+  for (seif::LandmarkId id = 0; id < 10; ++id) landmarks.push_back({id, polar(4.0, 0.3 * id)});
+  LandmarkSensor sensor(options, random_stream(11, "landmark_sensor"));
+  constexpr int scans = 1000;
+  int misread = 0;
+  std::set<seif::LandmarkId> read_as;
+  Seen seen;
+  for (int i = 0; i < scans; ++i) {
+    sensor.scan(i, {}, landmarks, always, seen.scan, seen.true_ids);
+    std::set<seif::LandmarkId> ids;
+    for (std::size_t k = 0; k < seen.true_ids.size(); ++k) {
+      const seif::LandmarkId id = seen.scan.observations[k].landmark;
+      EXPECT_TRUE(ids.insert(id).second) << "twice in a scan";
+      ASSERT_TRUE(id >= 0 && id < 20);
+      if (id == seen.true_ids[k]) continue;
+      ++misread;
+      read_as.insert(id);
+    }
+  }
+  EXPECT_NEAR(misread, 1000, 4 * 30);  // sd of a binomial: sqrt(10000 * 0.1 * 0.9) = 30
+  EXPECT_GE(read_as.size(), 10U) << "all that are not in the scan";
+}
+
 TEST(LandmarkSensor, NeverMeasuresARangeBelowZero) {
   LandmarkSensorOptions options = options_with_false_ids();
   options.range_sd = 0.5;
@@ -280,6 +322,7 @@ TEST(LandmarkSensor, RefusesWhatMakesNoSense) {
   refused([](LandmarkSensorOptions& o) { o.bearing_sd = -0.1; });
   refused([](LandmarkSensorOptions& o) { o.range_sd_per_m = -0.1; });
   refused([](LandmarkSensorOptions& o) { o.miss_probability = 1.1; });
+  refused([](LandmarkSensorOptions& o) { o.misread_probability = -0.1; });
   refused([](LandmarkSensorOptions& o) { o.false_detections = -1.0; });
 }
 

@@ -1,13 +1,20 @@
 // Public data sets, where SEIFBED_DATASETS names a folder that has them: docs/datasets.md.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <iostream>
+#include <sstream>
+#include <vector>
 
+#include "harness/alignment.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/prepared_run.hpp"
 #include "harness/reference.hpp"
 #include "harness/registry.hpp"
 #include "harness/replay_settings.hpp"
+#include "harness/score_folder.hpp"
 
 namespace harness {
 namespace {
@@ -64,6 +71,7 @@ struct MrclamRun {
 };
 
 class VictoriaParkGraph : public Datasets {};
+class VictoriaParkTrees : public Datasets {};
 class CityTrees : public Datasets {};
 class FreiburgCourse : public Datasets {};
 class FreiburgGraph : public Datasets {};
@@ -96,6 +104,97 @@ TEST_F(VictoriaParkGraph, SeifIsNoFartherFromTheOptimumThanTheEkf) {
   EXPECT_EQ(run.seif.landmarks_mapped, 151);
   EXPECT_FALSE(run.seif.landmarks.rmse);  // nobody knows the truth
   EXPECT_LE(*run.seif_from_batch.landmarks.rmse_aligned, *run.ekf_from_batch.landmarks.rmse_aligned);
+}
+
+/// Where the receiver was, by the second; it stood by the laser. Times count from the first row of the
+/// odometry, as in the run.
+std::vector<TimedPose> read_gps(const std::filesystem::path& folder) {
+  constexpr double first_odometry = 21.940;  // [s]
+  std::istringstream text(test::read_file(folder / "derived_gps.txt"));
+  std::vector<TimedPose> fixes;
+  for (std::string line; std::getline(text, line);) {
+    TimedPose fix;
+    std::istringstream row(line);
+    if (!(row >> fix.t >> fix.T_world_robot.x >> fix.T_world_robot.y)) continue;
+    fix.t -= first_odometry;
+    fixes.push_back(fix);
+  }
+  return fixes;
+}
+
+struct FromGps {
+  std::vector<Eigen::Vector2d> gps, est;  // [m] at the times of the fixes, each in its own frame
+};
+
+/// Where the laser was by the estimate nearest in time to each fix, if there is one within a tenth of a
+/// second.
+FromGps pair_with_gps(const std::vector<TimedPose>& fixes, const std::vector<TimedPose>& poses,
+                      const Eigen::Vector2d& p_robot_laser) {
+  FromGps pairs;
+  for (const TimedPose& fix : fixes) {
+    auto after = std::ranges::lower_bound(poses, fix.t, {}, &TimedPose::t);
+    if (after != poses.begin() && (after == poses.end() || fix.t - (after - 1)->t < after->t - fix.t))
+      --after;
+    if (after == poses.end() || std::abs(after->t - fix.t) > 0.1) continue;
+    pairs.gps.emplace_back(fix.T_world_robot.x, fix.T_world_robot.y);
+    pairs.est.push_back(after->T_world_robot * p_robot_laser);
+  }
+  return pairs;
+}
+
+/// After an alignment that the fixes which jump have no part in: of the nearer half, time and again.
+double median_distance(const FromGps& pairs) {
+  std::vector<Eigen::Vector2d> from = pairs.est;
+  std::vector<Eigen::Vector2d> to = pairs.gps;
+  std::vector<double> distances;
+  for (int round = 0; round < 20; ++round) {
+    const seif::Pose2 T_gps_est = align(from, to).value();
+    distances.clear();
+    for (std::size_t i = 0; i < pairs.gps.size(); ++i)
+      distances.push_back((T_gps_est * pairs.est[i] - pairs.gps[i]).norm());
+    std::vector<double> sorted = distances;
+    std::ranges::sort(sorted);
+    const double median = sorted[sorted.size() / 2];
+    from.clear();
+    to.clear();
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      if (distances[i] > median) continue;
+      from.push_back(pairs.est[i]);
+      to.push_back(pairs.gps[i]);
+    }
+    if (round == 19) return median;
+  }
+  return 0.0;
+}
+
+TEST_F(VictoriaParkTrees, TreesWithoutNamesMakeAMapThatFitsToGps) {
+  const std::filesystem::path folder = folder_ / "victoria_park";
+  const LogChoice log{.path = folder};
+  const seif::Registry registry = known_estimators();
+  const TemporaryFolder to;
+  ReplayChoices choices;
+  choices.overrides = {"scoring.interval_s=1e6"};
+  choices.defaults = default_settings(format_of(log));
+  const worlds::LoadResult settings = load_replay_settings(log.path, choices, registry);
+  PreparedRun run = prepare_replay(log, settings.world.value(), registry);
+  run.plan.folder = to.path();
+  run.plan.quiet = true;
+  const Summary summary = execute(run).summary;
+  const std::vector<TimedPose> fixes = read_gps(folder);
+  ASSERT_EQ(fixes.size(), 4466U);
+  const seif::Pose2& T_robot_laser = run.log->T_robot_sensor;
+  const Eigen::Vector2d p_robot_laser(T_robot_laser.x, T_robot_laser.y);
+  for (std::size_t i = 0; i < summary.score.estimators.size(); ++i) {
+    const EstimatorScore& score = summary.score.estimators[i];
+    EXPECT_EQ(summary.failures.at(i), "");
+    const double median =
+        median_distance(pair_with_gps(fixes, read_trajectory(to.path(), score.name), p_robot_laser));
+    std::cout << score.name << ": " << *score.landmarks_mapped << " landmarks, " << median << " m from GPS, "
+              << *score.associations_left_out << " of the observations left out\n";
+    EXPECT_LT(median, 1.5) << score.name << "; dead reckoning is at 69 m";
+    EXPECT_GT(*score.landmarks_mapped, 150) << score.name;
+    EXPECT_LT(*score.landmarks_mapped, 300) << score.name;
+  }
 }
 
 TEST_F(CityTrees, MapsAreThoseOfTheTruth) {

@@ -1,0 +1,51 @@
+// Places where something was seen that is not in the map: a landmark once it was seen there often enough,
+// before that perhaps a false detection. A bounded list; what is not seen again soon is forgotten.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace seif {
+
+class TentativeLandmarks {
+ public:
+  /// Something as it stands in the list.
+  struct Sighting {
+    int times = 0;  // [-] scans that saw it, this one too
+    int age = 0;    // [-] scans since the first that did
+  };
+
+  /// Forgets what was not seen in so many scans.
+  explicit TentativeLandmarks(int forget_after) : forget_after_(forget_after) { places_.reserve(most); }
+
+  /// The next scan. `wander` is by how much the robot may have gone astray since the last one [m^2].
+  void begin_scan(double wander);
+
+  /// Something seen at p_world [m], known by itself to within `variance` [m^2]. Joins the nearest place
+  /// inside the gate that was not seen in this scan, or becomes a new one.
+  Sighting see(const Eigen::Vector2d& p_world, double variance, double gate);
+
+  /// What was seen last is in the map now.
+  void admit_last() { places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(last_)); }
+
+  std::size_t size() const { return places_.size(); }
+  std::size_t memory_bytes() const { return places_.capacity() * sizeof(Place); }
+
+ private:
+  static constexpr std::size_t most = 128;  // [-] places; beyond that the one longest not seen goes
+  struct Place {
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> p_world;  // [m]
+    double variance;                                        // [m^2]
+    int times;                                              // [-]
+    int first_scan, last_scan;
+  };
+  std::size_t room();
+
+  int forget_after_;  // [-] scans
+  int scan_ = 0;
+  std::size_t last_ = 0;
+  std::vector<Place> places_;
+};
+
+}  // namespace seif
