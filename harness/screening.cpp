@@ -1,5 +1,6 @@
 #include "harness/screening.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace harness {
