@@ -65,14 +65,12 @@ std::string log_line(const Summary& summary) {
   return text + '\n';
 }
 
-/// What was not given to the estimators; empty if nothing.
+/// What was not given to the estimators, a line for each kind; empty if nothing.
 std::string left_out_line(const Summary& summary) {
   if (summary.left_out.empty()) return "";
-  std::string text;
-  for (const auto& [name, value] : summary.left_out)
-    text += fmt::format("{}{} {}", text.empty() ? "\nNot given to the estimators: " : ", ", name, value);
-  if (summary.left_out_t) text += fmt::format("; the first at {} s", *summary.left_out_t);
-  return text + '\n';
+  std::string text = fmt::format("\nNot given to the estimators, from {} s on:\n", summary.left_out_t.value_or(0.0));
+  for (const auto& [name, value] : summary.left_out) text += fmt::format("  {} {}\n", name, value);
+  return text;
 }
 
 /// Estimators that have diverged, and those whose belief was none; empty if all is well.
@@ -86,8 +84,7 @@ std::string divergence_lines(const Summary& summary) {
       text += fmt::format("{} diverged by {} s: the NEES of its pose is above {:.1f}\n", score.name,
                           *score.diverged_nees_t, highest_nees_pose());
     if (score.improper_beliefs > 0)
-      text += fmt::format("{} had no proper belief at {} scoring times, the first at {} s: a matrix that is not "
-                          "positive definite\n",
+      text += fmt::format("{} had no positive definite belief at {} scoring times, the first at {} s\n",
                           score.name, score.improper_beliefs, score.improper_t.value_or(0.0));
   }
   return text.empty() ? text : '\n' + text;

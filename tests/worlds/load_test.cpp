@@ -335,5 +335,15 @@ TEST(LoadWorld, WritesTheVersionOfTheProgramIntoTheResolvedFile) {
             0U);
 }
 
+// A name that YAML takes for nothing unless it stands in quotes.
+TEST(LoadWorld, AnEstimatorMayBeCalledNull) {
+  const Folder folder;
+  const LoadResult first = load_text(folder, "estimators: {\"null\": {type: ekf}, \"NULL\": {type: seif}}\n");
+  ASSERT_TRUE(first.world) << test::text_of(first.problems);
+  const LoadResult again = load_text(folder, first.resolved);
+  ASSERT_TRUE(again.world) << test::text_of(again.problems) << first.resolved;
+  EXPECT_EQ(again.world->estimators.back().name, "NULL");
+}
+
 }  // namespace
 }  // namespace worlds
