@@ -5,19 +5,11 @@
 
 namespace harness {
 
-namespace {
-
-// A filter that is somewhat too sure of itself has not diverged: twice the deviation that it expects, sustained over
-// a window, is where a map is being bent.
-constexpr double highest_ratio = 4.0;  // [-]
-
-}  // namespace
-
 double highest_nis(int degrees) {
   constexpr double z = 5.998;  // of the standard normal, at 1e-9
   const double c = 2.0 / (9.0 * degrees);
   const double root = 1.0 - c + z * std::sqrt(c);
-  return root * root * root;
+  return tolerated_sigma * tolerated_sigma * root * root * root;
 }
 
 double highest_nees_pose() {
@@ -37,7 +29,7 @@ void InnovationTest::add(double t, double innovation, int degrees, std::int64_t 
   }
   const double nis = sum.degrees > 0 ? sum.innovation / sum.degrees : 0.0;
   worst_ = std::max(worst_.value_or(0.0), nis);
-  const bool too_far = sum.degrees > 0 && !(nis <= std::max(highest_ratio, highest_nis(sum.degrees)));
+  const bool too_far = sum.degrees > 0 && !(nis <= highest_nis(sum.degrees));
   const bool shut_out = 2 * sum.gated > sum.degrees;
   if ((too_far || shut_out) && !fired_t_) fired_t_ = t;
 }

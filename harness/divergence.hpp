@@ -12,7 +12,7 @@ namespace harness {
 ///
 /// Of a right filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of freedom as
 /// numbers were measured. The test fires where the sum over the last `window` scans that saw known landmarks is
-/// beyond both of its bounds; or where the filter's gate has left out more of what was known than it let in.
+/// beyond highest_nis(); or where the filter's gate has left out more of what was known than it let in.
 class InnovationTest {
  public:
   static constexpr std::size_t window = 10;  // [-] scans
@@ -38,8 +38,12 @@ class InnovationTest {
   std::optional<double> worst_;
 };
 
-/// Above this a right filter's NIS for each degree of freedom comes once in a billion times: the chi-square quantile
-/// over `degrees`, by Wilson and Hilferty's approximation, in constant time. [-]
+/// [-] sigma that are believed to be one: so many a filter may be too sure of itself, on ice or with wrong wheels,
+/// and find its way back.
+inline constexpr double tolerated_sigma = 4.0;
+
+/// The NIS for each degree of freedom that a filter which is as wrong as is tolerated exceeds once in a billion
+/// times: the chi-square quantile over `degrees`, by Wilson and Hilferty's approximation, in constant time. [-]
 double highest_nis(int degrees);
 
 /// NEES of the pose for each degree of freedom beyond which a filter has diverged: once in a million times of a right

@@ -150,8 +150,11 @@ std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::
     const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
     map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
     if (rows.is_empty(3)) continue;
+    // One by one: Eigen does not let a list of coefficients be broken off, as a cell that is no number would.
     Eigen::Matrix2d covariance;
-    covariance << rows.number(3), rows.number(4), rows.number(4), rows.number(5);
+    covariance(0, 0) = rows.number(3);
+    covariance(0, 1) = covariance(1, 0) = rows.number(4);
+    covariance(1, 1) = rows.number(5);
     map.back().covariance = covariance;
   }
   return map;

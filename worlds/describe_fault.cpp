@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kind_names = {"bad_observation", "outlier", "encoder_jump", "silence",
                                                         "kidnapping"};
-constexpr std::array<std::string_view, 3> value_names = {"nan", "infinite", "absurd"};
+constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infinite", "absurd"};
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
 

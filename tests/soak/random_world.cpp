@@ -75,7 +75,7 @@ std::string fault(Dice& dice, double duration) {
   const std::string at = fmt::format("at_s: {:.2f}", dice.between(0.0, duration));
   switch (dice.whole(0, 4)) {
     case 0:
-      return fmt::format("{{kind: bad_observation, {}, value: {}}}", at, dice.one_of({"nan", "infinite", "absurd"}));
+      return fmt::format("{{kind: bad_observation, {}, value: {}}}", at, dice.one_of({"not_a_number", "infinite", "absurd"}));
     case 1:
       return fmt::format("{{kind: outlier, {}, size_sigma: {:.1f}}}", at, dice.between(-30.0, 30.0));
     case 2:

@@ -36,11 +36,12 @@ TEST(Faults, OfEveryKindAreRead) {
 
 TEST(Faults, AreInTheResolvedWorld) {
   const Folder folder;
-  const LoadResult first = load_text(folder, "faults: [{kind: outlier, at_s: 2, size_sigma: 30}]\n");
-  ASSERT_TRUE(first.world);
+  const LoadResult first = load_text(folder, "faults: [{kind: outlier, at_s: 2, size_sigma: 30}, "
+                                             "{kind: bad_observation, at_s: 1}]\n");
+  ASSERT_TRUE(first.world) << test::text_of(first.problems);
   const LoadResult again = load_text(folder, first.resolved);
-  ASSERT_TRUE(again.world);
-  ASSERT_EQ(again.world->faults.size(), 1U);
+  ASSERT_TRUE(again.world) << test::text_of(again.problems);
+  ASSERT_EQ(again.world->faults.size(), 2U);
   EXPECT_EQ(again.world->faults.front().size, 30.0);
 }
 
@@ -62,7 +63,7 @@ TEST(Faults, WithAMistakeAreRefused) {
       {"faults: [{kind: outlier, at_s: 1, size_sigma: 360}]", "half a turn or more"},
       {"faults: [{kind: outlier, at_s: 1, size_sigma: 3, wheel: left}]",
        "'wheel' does not belong to kind 'outlier', but to 'encoder_jump'"},
-      {"faults: [{kind: bad_observation, at_s: 1, value: big}]", "must be one of nan, infinite, absurd"},
+      {"faults: [{kind: bad_observation, at_s: 1, value: big}]", "must be one of not_a_number, infinite, absurd"},
       {"faults: [{kind: encoder_jump, at_s: 1, wheel: caster, jump_deg: 9}]", "must be one of left, right"},
       {"faults: [{kind: silence, at_s: 1, sensor: encoders, duration_s: 0}]", "must be more than 0"},
       {"faults: [{kind: silence, at_s: 1, duration_s: 1}]", "the key 'sensor' is missing"},
