@@ -63,7 +63,8 @@ const std::string& CsvReader::name(int column) const {
   const std::size_t required = columns_.required.size();
   if (i < required) return columns_.required[i];
   const std::size_t optional = columns_.optional.size();
-  return i < required + optional ? columns_.optional[i - required] : columns_.newer.at(i - required - optional);
+  return i < required + optional ? columns_.optional[i - required]
+                                 : columns_.newer.at(i - required - optional);
 }
 
 bool CsvReader::is_empty(int column) const { return rows_.cell(static_cast<std::size_t>(column)).empty(); }

@@ -1,5 +1,6 @@
-// What goes wrong on purpose between the truth and the stream: the faults of a world, each at its time. They draw
-// nothing at random and change nothing that is drawn, so a run is the same up to its first fault as without.
+// What goes wrong on purpose between the truth and the stream: the faults of a world, each at its time. They
+// draw nothing at random and change nothing that is drawn, so a run is the same up to its first fault as
+// without.
 #pragma once
 
 #include <optional>
@@ -28,7 +29,8 @@ class FaultInjection {
 
   WheelJumps encoder_jumps(double t) const;
 
-  /// Spoils the first observation of a scan, by all faults that are due; they wait for one that saw something.
+  /// Spoils the first observation of a scan, by all faults that are due; they wait for one that saw
+  /// something.
   void spoil(seif::Scan& scan);
 
  private:

@@ -277,7 +277,8 @@ void LiveLoop::tell_map(std::size_t index) {
       ids.push_back(landmark.landmark);
     }
     if (not_finite > 0 && estimator.failure.empty())
-      estimator.failure = fmt::format("at {} s: {} landmarks of its map are not finite", counts_.t, not_finite);
+      estimator.failure =
+          fmt::format("at {} s: {} landmarks of its map are not finite", counts_.t, not_finite);
     const std::optional<seif::MarginalCovariances> belief = estimator.filter->marginal_covariances(ids);
     for (std::size_t k = 0; belief && k < records.size(); ++k) {
       if (belief->landmarks.at(k).allFinite()) records[k].covariance = belief->landmarks[k];

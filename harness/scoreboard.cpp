@@ -68,7 +68,8 @@ std::string log_line(const Summary& summary) {
 /// What was not given to the estimators, a line for each kind; empty if nothing.
 std::string left_out_line(const Summary& summary) {
   if (summary.left_out.empty()) return "";
-  std::string text = fmt::format("\nNot given to the estimators, from {} s on:\n", summary.left_out_t.value_or(0.0));
+  std::string text =
+      fmt::format("\nNot given to the estimators, from {} s on:\n", summary.left_out_t.value_or(0.0));
   for (const auto& [name, value] : summary.left_out) text += fmt::format("  {} {}\n", name, value);
   return text;
 }
@@ -78,8 +79,8 @@ std::string divergence_lines(const Summary& summary) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {
     if (score.diverged_t)
-      text += fmt::format("{} diverged at {} s: it does not see what it expects (NIS up to {:.3g})\n", score.name,
-                          *score.diverged_t, score.worst_nis.value_or(0.0));
+      text += fmt::format("{} diverged at {} s: it does not see what it expects (NIS up to {:.3g})\n",
+                          score.name, *score.diverged_t, score.worst_nis.value_or(0.0));
     if (score.diverged_nees_t)
       text += fmt::format("{} diverged by {} s: the NEES of its pose is above {:.1f}\n", score.name,
                           *score.diverged_nees_t, highest_nees_pose());

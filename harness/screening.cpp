@@ -29,7 +29,8 @@ bool is_in_range(const seif::Odometry& odometry) {
 }
 
 bool is_finite(const seif::Observation& observation) {
-  return std::isfinite(observation.range) && std::isfinite(observation.bearing) && observation.covariance.allFinite();
+  return std::isfinite(observation.range) && std::isfinite(observation.bearing) &&
+         observation.covariance.allFinite();
 }
 
 bool is_in_range(const seif::Observation& observation, double longest) {

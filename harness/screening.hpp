@@ -1,5 +1,5 @@
-// The door of the estimators: what comes in is looked at, and what no estimator can be given is left out, counted and
-// told. Recorded is what passed, so a replay gets the same.
+// The door of the estimators: what comes in is looked at, and what no estimator can be given is left out,
+// counted and told. Recorded is what passed, so a replay gets the same.
 #pragma once
 
 #include <array>

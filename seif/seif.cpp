@@ -80,7 +80,8 @@ void Seif::add_known(const Scan& scan) {
 
 /// v' S^-1 v of all factors together, from what the step has just left of them. With d the step of all means
 /// and C the information before the scan, the least squared error of belief and scan is
-///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - r' (C + sum J' Q^-1 J)^-1 r,   r = sum J' Q^-1 v,
+///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - r' (C + sum J' Q^-1 J)^-1 r,   r = sum J' Q^-1
+///   v,
 /// and it is v' S^-1 v with S = J C^-1 J' + Q. With the tree, r was zero before.
 void Seif::note_innovation() {
   innovation_ = 0.0;

@@ -58,7 +58,7 @@ class SensingWorld {
   btDbvtBroadphase broadphase_;
   std::deque<btCollisionObject> objects_;  // the world holds pointers to them, and follows them when it goes
   btCollisionWorld world_;
-  mutable std::vector<int> nearby_;        // scratch of the queries
+  mutable std::vector<int> nearby_;  // scratch of the queries
   mutable QueryCounts counts_;
 };
 

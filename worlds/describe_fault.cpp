@@ -6,8 +6,8 @@
 namespace worlds {
 namespace {
 
-constexpr std::array<std::string_view, 5> kind_names = {"bad_observation", "outlier", "encoder_jump", "silence",
-                                                        "kidnapping"};
+constexpr std::array<std::string_view, 5> kind_names = {"bad_observation", "outlier", "encoder_jump",
+                                                        "silence", "kidnapping"};
 constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infinite", "absurd"};
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
@@ -18,17 +18,19 @@ std::vector<Fields::Case> fault_cases(Fault& fault) {
   return {
       {"bad_observation", "the range of the first landmark that is seen is no measurement",
        [&](Fields& fields) {
-         describe_choice(fields, "value", fault.value, value_names, "what it is; absurd: a thousand kilometres");
+         describe_choice(fields, "value", fault.value, value_names,
+                         "what it is; absurd: a thousand kilometres");
        }},
       {"outlier", "the bearing of the first landmark that is seen is off",
        [&](Fields& fields) {
-         fields.number("size_sigma", fault.size, any_number(), "by so many standard deviations, counter-clockwise",
-                       Need::required);
+         fields.number("size_sigma", fault.size, any_number(),
+                       "by so many standard deviations, counter-clockwise", Need::required);
        }},
       {"encoder_jump", "the encoder of a wheel jumps, and goes on from there",
        [&](Fields& fields) {
          describe_choice(fields, "wheel", fault.wheel, wheel_names, "whose", Need::required);
-         fields.angle("jump_deg", fault.jump, between(-largest_jump, largest_jump), "forwards", Need::required);
+         fields.angle("jump_deg", fault.jump, between(-largest_jump, largest_jump), "forwards",
+                      Need::required);
        }},
       {"silence", "a sensor says nothing for a while",
        [&](Fields& fields) {

@@ -30,8 +30,9 @@ std::string name_of(const std::array<std::string_view, N>& names, Enum value) {
 
 /// A choice among the enumerators, by their names.
 template <class Enum, std::size_t N>
-void describe_choice(Fields& fields, std::string_view key, Enum& value, const std::array<std::string_view, N>& names,
-                     std::string_view help, Need need = Need::defaulted) {
+void describe_choice(Fields& fields, std::string_view key, Enum& value,
+                     const std::array<std::string_view, N>& names, std::string_view help,
+                     Need need = Need::defaulted) {
   std::string name = name_of(names, value);
   fields.choice(key, name, {names.begin(), names.end()}, help, need);
   value = enum_of<Enum>(names, name);

@@ -26,14 +26,14 @@ enum class FaultySensor { landmark_sensor, encoders };
 /// Its time, and what its kind needs of the rest.
 struct Fault {
   FaultKind kind = FaultKind::bad_observation;
-  double at = 0.0;                                    // [s] it comes with the first measurement from then on
-  BadValue value = BadValue::nan;                     // bad_observation: its range
-  double size = 0.0;                                  // [sigma] outlier: of the bearing, counter-clockwise
-  Wheel wheel = Wheel::left;                          // encoder_jump
-  double jump = 0.0;                                  // [rad] encoder_jump: of the angle as it is read
+  double at = 0.0;                 // [s] it comes with the first measurement from then on
+  BadValue value = BadValue::nan;  // bad_observation: its range
+  double size = 0.0;               // [sigma] outlier: of the bearing, counter-clockwise
+  Wheel wheel = Wheel::left;       // encoder_jump
+  double jump = 0.0;               // [rad] encoder_jump: of the angle as it is read
   FaultySensor sensor = FaultySensor::landmark_sensor;  // silence
-  double duration = 0.0;                              // [s] silence
-  Placement to;                                       // kidnapping: T_world_robot
+  double duration = 0.0;                                // [s] silence
+  Placement to;                                         // kidnapping: T_world_robot
 };
 
 }  // namespace worlds

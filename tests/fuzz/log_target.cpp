@@ -14,12 +14,14 @@ namespace {
 
 void check(const harness::OdometryEvent& event, bool /*names_landmarks*/) {
   const seif::Pose2& T = event.odometry.T_previous_current;
-  if (!std::isfinite(event.odometry.t + T.x + T.y + T.theta) || !event.odometry.covariance.allFinite()) std::abort();
+  if (!std::isfinite(event.odometry.t + T.x + T.y + T.theta) || !event.odometry.covariance.allFinite())
+    std::abort();
 }
 
 void check(const harness::ScanEvent& event, bool names_landmarks) {
   for (const seif::Observation& seen : event.scan.observations) {
-    if (!std::isfinite(seen.range + seen.bearing) || seen.range < 0.0 || !seen.covariance.allFinite()) std::abort();
+    if (!std::isfinite(seen.range + seen.bearing) || seen.range < 0.0 || !seen.covariance.allFinite())
+      std::abort();
     if (names_landmarks != (seen.landmark >= 0)) std::abort();
   }
 }
@@ -37,7 +39,8 @@ void read_log(std::string_view bytes) {
     for (harness::Event event; log->next(event);) {
       std::visit([&](const auto& some) { check(some, names_landmarks); }, event);
       const auto* odometry = std::get_if<harness::OdometryEvent>(&event);
-      const double now = odometry != nullptr ? odometry->odometry.t : std::get<harness::ScanEvent>(event).scan.t;
+      const double now =
+          odometry != nullptr ? odometry->odometry.t : std::get<harness::ScanEvent>(event).scan.t;
       if (now < t) std::abort();
       t = now;
     }

@@ -112,7 +112,10 @@ const std::array<Library, 10>& libraries() {
        [](View path) { return is_inside(path, "harness/peers") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; },
-       [](View path) { return is_inside(path, "harness") || is_inside(path, "tests/harness") || is_inside(path, "tests/soak"); }},
+       [](View path) {
+         return is_inside(path, "harness") || is_inside(path, "tests/harness") ||
+                is_inside(path, "tests/soak");
+       }},
   }};
   return all;
 }

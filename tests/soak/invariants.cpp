@@ -20,7 +20,8 @@ bool is_finite(const seif::Pose2& pose) {
 template <class Matrix>
 bool is_proper(const Matrix& covariance) {
   const double largest = covariance.cwiseAbs().maxCoeff();
-  return covariance.allFinite() && (covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * largest &&
+  return covariance.allFinite() &&
+         (covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * largest &&
          covariance.llt().info() == Eigen::Success;
 }
 
@@ -57,8 +58,8 @@ void Invariants::update(std::size_t estimator, const harness::UpdateRecord& reco
   const std::string& name = believers_.estimators[estimator].name;
   if (name == "seif" || name == "groups") {  // theta_max, what is in view, and what a scan has just brought
     constexpr int largest_theta_max = 24;
-    require(record.active_landmarks <= largest_theta_max + 2 * static_cast<int>(largest_scan_), estimator, record.t,
-            "more landmarks are active than the filter allows");
+    require(record.active_landmarks <= largest_theta_max + 2 * static_cast<int>(largest_scan_), estimator,
+            record.t, "more landmarks are active than the filter allows");
   }
 }
 
@@ -78,8 +79,8 @@ void Invariants::require_proper_belief(std::size_t estimator, double t) {
   const auto belief = live.filter->marginal_covariances(ids);
   if (!belief) return require(live.name == "seif_report", estimator, t, "the belief is no proper Gaussian");
   require(is_proper(belief->pose), estimator, t, "the pose's marginal is no covariance");
-  require(std::ranges::all_of(belief->landmarks, [](const Eigen::Matrix2d& P) { return is_proper(P); }), estimator, t,
-          "a landmark's marginal is no covariance");
+  require(std::ranges::all_of(belief->landmarks, [](const Eigen::Matrix2d& P) { return is_proper(P); }),
+          estimator, t, "a landmark's marginal is no covariance");
   const Eigen::MatrixXd whole = live.filter->whole_belief_matrix();
   if (whole.size() > 0 && live.name != "seif_report")
     require(is_proper(whole), estimator, t, "the whole belief is not symmetric and positive definite");

@@ -29,9 +29,9 @@ class Invariants final : public harness::RunListener {
   void require_proper_belief(std::size_t estimator, double t);
 
   const harness::Believers& believers_;
-  double last_t_ = -1.0;                 // [s]
-  std::size_t largest_scan_ = 0;         // [-]
-  std::size_t observations_ = 0;         // [-]
+  double last_t_ = -1.0;          // [s]
+  std::size_t largest_scan_ = 0;  // [-]
+  std::size_t observations_ = 0;  // [-]
   std::vector<std::string> broken_;
 };
 

@@ -1,5 +1,6 @@
 // Random worlds, one after the other, for as long as it is told: soak --minutes 60 --seed 1
-// Ends with 1 if anything that must hold did not; the world's text and seed are printed, so that it comes again.
+// Ends with 1 if anything that must hold did not; the world's text and seed are printed, so that it comes
+// again.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,11 +26,11 @@
 namespace {
 
 struct Tally {
-  int worlds = 0;     // [-] that were run
+  int worlds = 0;  // [-] that were run
   int without_room = 0;
-  int failures = 0;   // [-] estimators that gave up, and said so
-  int diverged = 0;   // [-] estimators that said so
-  int broken = 0;     // [-] worlds in which something did not hold
+  int failures = 0;  // [-] estimators that gave up, and said so
+  int diverged = 0;  // [-] estimators that said so
+  int broken = 0;    // [-] worlds in which something did not hold
   double updates = 0.0;
   std::vector<double> resident;  // [byte] after each world
 };
@@ -47,7 +48,8 @@ harness::RunResult run(const worlds::World& world, std::vector<std::string>& bro
   soak::Invariants invariants(*prepared.believers);
   harness::RunResult result = harness::execute_in_passing(prepared, &invariants);
   broken = invariants.broken();
-  if (!result.error.empty() && result.error.find("steers") == std::string::npos) broken.push_back(result.error);
+  if (!result.error.empty() && result.error.find("steers") == std::string::npos)
+    broken.push_back(result.error);
   return result;
 }
 
@@ -68,7 +70,8 @@ void soak_one(std::uint64_t seed, bool twice, Tally& tally) {
   for (const std::string& failure : result.summary.failures) tally.failures += failure.empty() ? 0 : 1;
   for (std::size_t i = 0; i < result.summary.failures.size(); ++i) {
     if (!result.summary.failures[i].empty())
-      fmt::print("seed {}: {} failed {}\n", seed, result.summary.score.estimators[i].name, result.summary.failures[i]);
+      fmt::print("seed {}: {} failed {}\n", seed, result.summary.score.estimators[i].name,
+                 result.summary.failures[i]);
   }
   for (const harness::EstimatorScore& score : result.summary.score.estimators)
     tally.diverged += score.diverged_t ? 1 : 0;
@@ -107,7 +110,9 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   Tally tally;
   const int most = 20 * std::max(worlds, 1);
   for (int i = 0; worlds > 0 ? tally.worlds < worlds && i < most : elapsed() < 60.0 * minutes; ++i) {
@@ -115,9 +120,10 @@ int main(int argc, char** argv) {
     soak_one(seed + static_cast<std::uint64_t>(i), i % each == 0, tally);
   }
   const bool flat = memory_is_flat(tally.resident);
-  fmt::print("{} worlds, {:.0f} updates, {:.0f} s; {} without room; {} estimators failed, {} diverged, and said so; "
-             "{} worlds in which something did not hold\n",
-             tally.worlds, tally.updates, elapsed(), tally.without_room, tally.failures, tally.diverged,
-             tally.broken);
+  fmt::print(
+      "{} worlds, {:.0f} updates, {:.0f} s; {} without room; {} estimators failed, {} diverged, and said so; "
+      "{} worlds in which something did not hold\n",
+      tally.worlds, tally.updates, elapsed(), tally.without_room, tally.failures, tally.diverged,
+      tally.broken);
   return tally.broken == 0 && flat && tally.worlds > 0 && (worlds == 0 || tally.worlds == worlds) ? 0 : 1;
 }

@@ -11,13 +11,14 @@ using test::load_text;
 
 TEST(Faults, OfEveryKindAreRead) {
   const Folder folder;
-  const LoadResult result = load_text(folder,
-                                      "faults:\n"
-                                      "  - {kind: bad_observation, at_s: 1, value: infinite}\n"
-                                      "  - {kind: outlier, at_s: 2, size_sigma: -100}\n"
-                                      "  - {kind: encoder_jump, at_s: 3, wheel: right, jump_deg: 180}\n"
-                                      "  - {kind: silence, at_s: 4, sensor: encoders, duration_s: 60}\n"
-                                      "  - {kind: kidnapping, at_s: 5.5, x_m: 2, y_m: -3, heading_deg: 90}\n");
+  const LoadResult result =
+      load_text(folder,
+                "faults:\n"
+                "  - {kind: bad_observation, at_s: 1, value: infinite}\n"
+                "  - {kind: outlier, at_s: 2, size_sigma: -100}\n"
+                "  - {kind: encoder_jump, at_s: 3, wheel: right, jump_deg: 180}\n"
+                "  - {kind: silence, at_s: 4, sensor: encoders, duration_s: 60}\n"
+                "  - {kind: kidnapping, at_s: 5.5, x_m: 2, y_m: -3, heading_deg: 90}\n");
   ASSERT_TRUE(result.world) << test::text_of(result.problems);
   const std::vector<Fault>& faults = result.world->faults;
   ASSERT_EQ(faults.size(), 5U);
@@ -36,8 +37,9 @@ TEST(Faults, OfEveryKindAreRead) {
 
 TEST(Faults, AreInTheResolvedWorld) {
   const Folder folder;
-  const LoadResult first = load_text(folder, "faults: [{kind: outlier, at_s: 2, size_sigma: 30}, "
-                                             "{kind: bad_observation, at_s: 1}]\n");
+  const LoadResult first = load_text(folder,
+                                     "faults: [{kind: outlier, at_s: 2, size_sigma: 30}, "
+                                     "{kind: bad_observation, at_s: 1}]\n");
   ASSERT_TRUE(first.world) << test::text_of(first.problems);
   const LoadResult again = load_text(folder, first.resolved);
   ASSERT_TRUE(again.world) << test::text_of(again.problems);
@@ -63,7 +65,8 @@ TEST(Faults, WithAMistakeAreRefused) {
       {"faults: [{kind: outlier, at_s: 1, size_sigma: 360}]", "half a turn or more"},
       {"faults: [{kind: outlier, at_s: 1, size_sigma: 3, wheel: left}]",
        "'wheel' does not belong to kind 'outlier', but to 'encoder_jump'"},
-      {"faults: [{kind: bad_observation, at_s: 1, value: big}]", "must be one of not_a_number, infinite, absurd"},
+      {"faults: [{kind: bad_observation, at_s: 1, value: big}]",
+       "must be one of not_a_number, infinite, absurd"},
       {"faults: [{kind: encoder_jump, at_s: 1, wheel: caster, jump_deg: 9}]", "must be one of left, right"},
       {"faults: [{kind: silence, at_s: 1, sensor: encoders, duration_s: 0}]", "must be more than 0"},
       {"faults: [{kind: silence, at_s: 1, duration_s: 1}]", "the key 'sensor' is missing"},
@@ -87,10 +90,11 @@ TEST(Faults, WithAMistakeAreRefused) {
 
 TEST(Faults, LandmarksThatAreGeneratedLeaveRoomForWhoIsPutThere) {
   const Folder folder;
-  const LoadResult result = load_text(folder,
-                                      "ground: {size_m: [8, 8]}\n"
-                                      "landmarks: {generators: [{type: grid, cell_m: [0.5, 0.5], skip_blocked: true}]}\n"
-                                      "faults: [{kind: kidnapping, at_s: 1, x_m: 2.25, y_m: 2.25}]\n");
+  const LoadResult result =
+      load_text(folder,
+                "ground: {size_m: [8, 8]}\n"
+                "landmarks: {generators: [{type: grid, cell_m: [0.5, 0.5], skip_blocked: true}]}\n"
+                "faults: [{kind: kidnapping, at_s: 1, x_m: 2.25, y_m: 2.25}]\n");
   ASSERT_TRUE(result.world) << test::text_of(result.problems);
   ASSERT_GT(result.world->landmarks.size(), 100U);
   for (const Landmark& landmark : result.world->landmarks)

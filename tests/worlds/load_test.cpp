@@ -185,7 +185,7 @@ TEST(LoadWorld, ReadsEstimatorsInTheOrderOfTheFile) {
   EXPECT_EQ(std::get<std::int64_t>(estimators[0].options.at("theta_x")), 16);
   EXPECT_EQ(std::get<std::int64_t>(estimators[0].options.at("K")), 10);
   EXPECT_EQ(estimators[1].type, "ekf");
-  EXPECT_TRUE(estimators[1].options.empty());
+  EXPECT_EQ(std::get<double>(estimators[1].options.at("gate")), 0.0);
 }
 
 TEST(LoadWorld, RefusesEstimatorsThatAreNone) {

@@ -64,8 +64,8 @@ inline std::filesystem::path gallery_file(const std::string& name) {
 }
 
 inline const std::vector<std::string>& gallery() {
-  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",     "orchard",
-                                                 "forest",    "walls",      "slippery", "umbmark", "faults"};
+  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",    "orchard", "forest",
+                                                 "walls",     "slippery",   "umbmark", "faults"};
   return names;
 }
 

@@ -1,6 +1,6 @@
-// The same world, seed and build give the same bits: in processes of their own, beside others, with and without what
-// follows a run. Twice in one process: run_test. Whatever the jobs of a sweep and of a comparison: sweep_command_test,
-// command_line_test. A film live and from the folder: film_test.
+// The same world, seed and build give the same bits: in processes of their own, beside others, with and
+// without what follows a run. Twice in one process: run_test. Whatever the jobs of a sweep and of a
+// comparison: sweep_command_test, command_line_test. A film live and from the folder: film_test.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -92,7 +92,8 @@ TEST_F(Determinism, AMachineUnderLoadGivesTheSameBytes) {
   {
     std::list<test::Process> runs;
     for (const char* out : {"a", "b", "c"})
-      runs.emplace_back(folder_.path(), std::vector<std::string>{"run", "world.yaml", "--quiet", "--out", out});
+      runs.emplace_back(folder_.path(),
+                        std::vector<std::string>{"run", "world.yaml", "--quiet", "--out", out});
     for (test::Process& run : runs) EXPECT_EQ(run.wait().exit_code, 0);
   }
   done = true;
@@ -100,8 +101,8 @@ TEST_F(Determinism, AMachineUnderLoadGivesTheSameBytes) {
 }
 
 TEST_F(Determinism, AFilmBesideItChangesNothing) {
-  const test::Called filmed =
-      call(folder_, "run world.yaml --quiet --out filmed --film --set film.fps=2 --set 'film.size_px=[160, 120]'");
+  const test::Called filmed = call(
+      folder_, "run world.yaml --quiet --out filmed --film --set film.fps=2 --set 'film.size_px=[160, 120]'");
   if (filmed.errors.find("OSMesa") != std::string::npos || filmed.errors.find("ffmpeg") != std::string::npos)
     GTEST_SKIP() << filmed.errors;
   EXPECT_EQ(filmed.exit_code, 0) << filmed.errors;
@@ -116,7 +117,9 @@ class LastPoses final : public RunListener {
  public:
   void odometry(const OdometryEvent&) override {}
   void scan(const ScanEvent&) override {}
-  void update(std::size_t estimator, const UpdateRecord& record) override { poses[estimator] = record.est_pose; }
+  void update(std::size_t estimator, const UpdateRecord& record) override {
+    poses[estimator] = record.est_pose;
+  }
   std::map<std::size_t, seif::Pose2> poses;
 };
 

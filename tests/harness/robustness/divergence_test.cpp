@@ -26,7 +26,8 @@ TEST(Divergence, TheBoundIsTheChiSquareQuantile) {
     if (degrees >= 20) EXPECT_LE(highest_nis(degrees), 1.025 * exact) << degrees;
   }
   const boost::math::chi_squared chi_square(3);
-  EXPECT_NEAR(highest_nees_pose(), boost::math::quantile(boost::math::complement(chi_square, 1e-6)) / 3, 0.01);
+  EXPECT_NEAR(highest_nees_pose(), boost::math::quantile(boost::math::complement(chi_square, 1e-6)) / 3,
+              0.01);
 }
 
 TEST(Divergence, AFilterAsWrongAsIsToleratedNeverFires) {
@@ -46,7 +47,8 @@ TEST(Divergence, AFilterAsWrongAsIsToleratedNeverFires) {
 TEST(Divergence, AFilterThatIsMuchWorseThanIsToleratedFiresWithinAWindow) {
   std::mt19937_64 random(7);
   InnovationTest test;
-  for (int scan = 0; scan < 100; ++scan) test.add(0.2 * scan, drawn(random, 10, scan < 50 ? 1.0 : 2.0 * tolerated_sigma), 10, 0);
+  for (int scan = 0; scan < 100; ++scan)
+    test.add(0.2 * scan, drawn(random, 10, scan < 50 ? 1.0 : 2.0 * tolerated_sigma), 10, 0);
   ASSERT_TRUE(test.fired_t());
   EXPECT_GT(*test.fired_t(), 10.0);
   EXPECT_LT(*test.fired_t(), 12.0);

@@ -40,9 +40,7 @@ worlds::World world_with(const std::vector<Fault>& faults) {
   return world;
 }
 
-Fault kidnapping() {
-  return {.kind = FaultKind::kidnapping, .at = at, .to = {{-2.0, -1.0}, -2.0}};
-}
+Fault kidnapping() { return {.kind = FaultKind::kidnapping, .at = at, .to = {{-2.0, -1.0}, -2.0}}; }
 
 const EstimatorScore& score_of(const RunResult& result, const std::string& name) {
   return *std::ranges::find(result.summary.score.estimators, name, &EstimatorScore::name);
@@ -81,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Values, BadObservation,
 
 TEST_P(BadObservation, IsLeftOutCountedAndTold) {
   const TemporaryFolder folder;
-  const worlds::World world = world_with({{.kind = FaultKind::bad_observation, .at = at, .value = GetParam()}});
+  const worlds::World world =
+      world_with({{.kind = FaultKind::bad_observation, .at = at, .value = GetParam()}});
   const RunResult result = run_live(world, folder / "run");
   EXPECT_EQ(exit_code(result), 0);
   ASSERT_EQ(result.summary.left_out.size(), 1U);
@@ -123,7 +122,8 @@ TEST(Outlier, OfTwoSigmaIsNoNews) {
   const TemporaryFolder folder;
   const RunResult result =
       run_live(world_with({{.kind = FaultKind::outlier, .at = at, .size = 2.0}}), folder / "run");
-  for (const EstimatorScore& score : result.summary.score.estimators) EXPECT_FALSE(score.diverged_t) << score.name;
+  for (const EstimatorScore& score : result.summary.score.estimators)
+    EXPECT_FALSE(score.diverged_t) << score.name;
 }
 
 TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {

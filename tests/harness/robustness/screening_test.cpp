@@ -79,7 +79,8 @@ TEST(Screening, LeavesOutObservationsWithACovarianceThatIsNone) {
 
 TEST(Screening, LeavesOutOdometryThatIsNone) {
   Screening screening(log_of_an_8_m_sensor());
-  for (Event bad : {odometry(nan, 0.1), odometry(infinity, 0.1), odometry(0.1, nan)}) EXPECT_FALSE(screening.admit(bad));
+  for (Event bad : {odometry(nan, 0.1), odometry(infinity, 0.1), odometry(0.1, nan)})
+    EXPECT_FALSE(screening.admit(bad));
   EXPECT_EQ(screening.count(Rejection::odometry_not_finite), 3);
   for (Event bad : {odometry(2e4, 0.1), odometry(0.1, -0.1)}) EXPECT_FALSE(screening.admit(bad));
   EXPECT_EQ(screening.count(Rejection::odometry_out_of_range), 2);
