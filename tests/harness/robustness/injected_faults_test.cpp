@@ -67,6 +67,7 @@ TEST(InjectedFaults, WithoutAnyNothingIsTold) {
     EXPECT_FALSE(score.diverged_nees_t) << score.name;
     EXPECT_GT(score.worst_nis, 0.0) << score.name;
   }
+  EXPECT_EQ(LogStream(folder / "run").description().max_range, 8.0);  // by which a replay leaves out the same
   const std::string board = scoreboard(result.summary);
   EXPECT_EQ(board.find("diverged"), std::string::npos);
   EXPECT_EQ(board.find("Not given"), std::string::npos);
