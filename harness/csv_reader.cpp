@@ -34,7 +34,10 @@ void CsvReader::read_header() {
     }
     return true;
   };
-  has_optional_ = !columns_.optional.empty() && matches(all);
+  std::vector<std::string> newest = all;
+  newest.insert(newest.end(), columns_.newer.begin(), columns_.newer.end());
+  has_newer_ = !columns_.newer.empty() && matches(newest);
+  has_optional_ = has_newer_ || (!columns_.optional.empty() && matches(all));
   if (has_optional_ || matches(columns_.required)) return;
   std::size_t wrong = 0;
   while (wrong < rows_.size() && wrong < all.size() && rows_.cell(wrong) == all[wrong]) ++wrong;
@@ -48,7 +51,8 @@ bool CsvReader::next() {
   do {
     if (!rows_.next()) return false;
   } while (skips_comments_ && rows_.is_comment());
-  const std::size_t most = columns_.required.size() + (has_optional_ ? columns_.optional.size() : 0);
+  const std::size_t most = columns_.required.size() + (has_optional_ ? columns_.optional.size() : 0) +
+                           (has_newer_ ? columns_.newer.size() : 0);
   if (rows_.size() > most)
     rows_.fail(most, fmt::format("the row has {} values, there are {} columns", rows_.size(), most));
   return true;
@@ -57,7 +61,10 @@ bool CsvReader::next() {
 const std::string& CsvReader::name(int column) const {
   const auto i = static_cast<std::size_t>(column);
   const std::size_t required = columns_.required.size();
-  return i < required ? columns_.required[i] : columns_.optional.at(i - required);
+  if (i < required) return columns_.required[i];
+  const std::size_t optional = columns_.optional.size();
+  return i < required + optional ? columns_.optional[i - required]
+                                 : columns_.newer.at(i - required - optional);
 }
 
 bool CsvReader::is_empty(int column) const { return rows_.cell(static_cast<std::size_t>(column)).empty(); }

@@ -10,10 +10,12 @@
 
 namespace harness {
 
-/// The columns that a table must have, in this order, and a group that may follow them all or not at all.
+/// The columns that a table must have, in this order, a group that may follow them all or not at all, and one
+/// that may follow that, where older versions wrote none.
 struct Columns {
   std::vector<std::string> required;
   std::vector<std::string> optional;
+  std::vector<std::string> newer = {};
 };
 
 /// A table as a stream of rows, in constant memory. All functions throw BadInput.
@@ -29,6 +31,7 @@ class CsvReader {
   bool next();
 
   bool has_optional() const { return has_optional_; }
+  bool has_newer() const { return has_newer_; }
   bool is_empty(int column) const;
   double number(int column) const;                                             // finite
   std::int64_t integer(int column, std::int64_t min, std::int64_t max) const;  // min <= value <= max
@@ -43,6 +46,7 @@ class CsvReader {
   Columns columns_;
   bool skips_comments_;
   bool has_optional_ = false;
+  bool has_newer_ = false;
 };
 
 }  // namespace harness

@@ -96,6 +96,7 @@ LiveLoop::LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener
       listeners_(std::move(listeners)),
       log_(log),
       scoring_(scoring),
+      screening_(log),
       times_(believers.estimators.size()),
       true_names_(believers.estimators.size()) {
   counts_.t = log.start_t;
@@ -112,6 +113,7 @@ void LiveLoop::run(const std::atomic<bool>& stop, const std::function<void(const
   Event event;
   while (!stop) {
     if (!stream_.next(event)) return;
+    if (!screening_.admit(event)) continue;
     ++counts_.events;
     std::visit([this](const auto& e) { take(e); }, event);
     if (progress && std::holds_alternative<ScanEvent>(event)) progress(counts_);
@@ -190,6 +192,8 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.gated = counts.gated;
   record.mean_residual = counts.mean_residual;
   record.anchoring = counts.anchoring;
+  record.innovation = counts.innovation;
+  record.innovation_degrees = counts.innovation_degrees;
   record.times = times_[index];
   if (!estimator.filter->needs_names()) {
     record.associations = estimator.filter->associations();
@@ -284,11 +288,18 @@ void LiveLoop::tell_map(std::size_t index) {
   std::vector<MapRecord> records;
   guard(estimator, counts_.t, [&] {
     std::vector<seif::LandmarkId> ids;
+    std::size_t not_finite = 0;
     for (const seif::LandmarkEstimate& landmark : estimator.filter->map()) {
-      if (!landmark.mean.allFinite()) continue;
+      if (!landmark.mean.allFinite()) {
+        ++not_finite;
+        continue;
+      }
       records.push_back({landmark.landmark, landmark.mean, {}});
       ids.push_back(landmark.landmark);
     }
+    if (not_finite > 0 && estimator.failure.empty())
+      estimator.failure =
+          fmt::format("at {} s: {} landmarks of its map are not finite", counts_.t, not_finite);
     const std::optional<seif::MarginalCovariances> belief = estimator.filter->marginal_covariances(ids);
     for (std::size_t k = 0; belief && k < records.size(); ++k) {
       if (belief->landmarks.at(k).allFinite()) records[k].covariance = belief->landmarks[k];

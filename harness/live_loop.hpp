@@ -14,6 +14,7 @@
 #include "harness/log_description.hpp"
 #include "harness/run_listener.hpp"
 #include "harness/score/true_names.hpp"
+#include "harness/screening.hpp"
 #include "harness/stream.hpp"
 #include "seif/estimator.hpp"
 #include "seif/registry.hpp"
@@ -75,6 +76,8 @@ class LiveLoop {
   void score_consistency();
 
   const LoopCounts& counts() const { return counts_; }
+  /// What was not given to the estimators.
+  const Screening& screening() const { return screening_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -96,6 +99,7 @@ class LiveLoop {
   std::vector<RunListener*> listeners_;
   const LogDescription& log_;
   worlds::Scoring scoring_;
+  Screening screening_;
   LoopCounts counts_;
   std::int64_t intervals_scored_ = 0;          // [-] since the start
   std::optional<double> last_scoring_t_;       // [s]

@@ -57,6 +57,10 @@ void describe(worlds::Fields& fields, LogDescription& log, std::string& associat
                 "error of a range for each metre");
   fields.number("bearing_sd_rad", log.noise.bearing_sd, worlds::more_than(0), "error of a bearing",
                 worlds::Need::required);
+  double max_range = 0.0;  // stays so if it is left out
+  fields.number("max_range_m", max_range, worlds::more_than(0),
+                "of the sensor: what is longer is no measurement", worlds::Need::optional);
+  if (max_range > 0.0) log.max_range = max_range;
   fields.number("truth_gap_s", log.longest_truth_gap, worlds::more_than(0),
                 "between true poses that are further apart there is no truth; left out: there is",
                 worlds::Need::optional);
@@ -77,6 +81,7 @@ std::string to_yaml(const LogDescription& log) {
   const seif::Pose2& mount = log.T_robot_sensor;
   const seif::Pose2& start = log.start.mean;
   const Eigen::Matrix3d& P = log.start.covariance;
+  const std::string max_range = log.max_range ? fmt::format("max_range_m: {}\n", *log.max_range) : "";
   const std::string truth_gap =
       std::isfinite(log.longest_truth_gap) ? fmt::format("truth_gap_s: {}\n", log.longest_truth_gap) : "";
   return fmt::format(
@@ -86,7 +91,7 @@ std::string to_yaml(const LogDescription& log) {
       "range_sd_m: {}\n"
       "range_sd_per_m: {}\n"
       "bearing_sd_rad: {}\n"
-      "{}"
+      "{}{}"
       "start:\n"
       "  t_s: {}\n"
       "  x_m: {}\n"
@@ -99,8 +104,8 @@ std::string to_yaml(const LogDescription& log) {
       "  cov_yt: {}\n"
       "  cov_tt: {}\n",
       nlohmann::json(log.name).dump(), log.known_association ? "known" : "unknown", mount.x, mount.y,
-      mount.theta, log.noise.range_sd, log.noise.range_sd_per_m, log.noise.bearing_sd, truth_gap, log.start_t,
-      start.x, start.y, start.theta, P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
+      mount.theta, log.noise.range_sd, log.noise.range_sd_per_m, log.noise.bearing_sd, max_range, truth_gap,
+      log.start_t, start.x, start.y, start.theta, P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
 }
 
 void read_yaml(const std::filesystem::path& file, LogDescription& description) {

@@ -25,8 +25,9 @@ struct LogDescription {
   std::string name;
   seif::Pose2 T_robot_sensor;
   SensorNoise noise;
-  double start_t = 0.0;      // [s] where the first odometry increment begins
-  seif::PoseEstimate start;  // T_world_robot then, as the robot believes
+  std::optional<double> max_range;  // [m] of the landmark sensor, where it is known
+  double start_t = 0.0;             // [s] where the first odometry increment begins
+  seif::PoseEstimate start;         // T_world_robot then, as the robot believes
   bool known_association = true;
   /// [s] Between true poses that are further apart there is no truth.
   double longest_truth_gap = std::numeric_limits<double>::infinity();

@@ -1,7 +1,10 @@
 #include "harness/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 
 #include "harness/csv_reader.hpp"
 #include "harness/interrupt.hpp"
@@ -21,12 +24,24 @@ std::vector<std::string> names_of(const Believers& believers) {
   return names;
 }
 
+/// Whether something was left out, and so has now been told.
+bool tell_of(const Screening& screening) {
+  if (!screening.first_t()) return false;
+  fmt::print(stderr, "at {} s: a measurement that is none was left out ({}); more of the kind are counted\n",
+             *screening.first_t(), screening.named().front().first);
+  return true;
+}
+
 /// Runs the loop; what goes wrong on the way is told in the result, so that what there is can be scored.
 void run_loop(LiveLoop& loop, const LogDescription& log, const RunPlan& plan, RunResult& result) {
   const InterruptGuard guard;
   Progress progress(plan.quiet, log.start_t, plan.end_t);
   try {
-    loop.run(InterruptGuard::flag(), [&](const LoopCounts& counts) { progress.show(counts.t); });
+    bool is_told = plan.quiet;
+    loop.run(InterruptGuard::flag(), [&](const LoopCounts& counts) {
+      progress.show(counts.t);
+      if (!is_told) is_told = tell_of(loop.screening());
+    });
   } catch (const std::system_error&) {
     throw;  // the recorder's: nothing more can be written
   } catch (const BadInput& error) {
@@ -67,6 +82,8 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.realtime_factor = summary.duration / elapsed;
   summary.rpe_interval = plan.scoring.rpe_interval;
   for (const auto& [name, count] : named(stream.counts())) summary.log_counts.emplace_back(name, count);
+  for (const auto& [name, count] : loop.screening().named()) summary.left_out.emplace_back(name, count);
+  summary.left_out_t = loop.screening().first_t();
   summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
   for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
   write_whole_file(plan.folder / "summary.json", to_json(summary));

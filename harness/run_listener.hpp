@@ -33,6 +33,8 @@ struct UpdateRecord {
   std::int64_t gated = 0;                         // [-] observations left out so far
   std::optional<double> mean_residual;            // [-] as in seif::Counts
   std::optional<double> anchoring;                // [nat] so far
+  std::optional<double> innovation;               // [-] v' S^-1 v of this scan, as in seif::Counts
+  int innovation_degrees = 0;                     // [-] of freedom
   UpdateTimes times;
   /// What Estimator::associations() tells, of an estimator that does not need names. As long as the call.
   std::optional<std::span<const seif::LandmarkId>> associations;

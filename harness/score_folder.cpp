@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "harness/csv_reader.hpp"
+#include "harness/divergence.hpp"
 #include "harness/log_stream.hpp"
 #include "harness/score/true_names.hpp"
 
@@ -13,6 +14,7 @@ namespace harness {
 namespace {
 
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t most_degrees = 1'000'000;  // [-] of one scan
 
 void score_trajectory(const std::filesystem::path& folder, double rpe_interval, EstimatorScore& score) {
   const std::vector<PosePair> poses = read_poses(folder, score.name);
@@ -47,10 +49,13 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
       folder / (score.name + "_steps.csv"),
       {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
         "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
-       {"gated"}});
+       {"gated"},
+       {"innovation", "innovation_degrees"}});
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
+  InnovationTest innovations;
   while (rows.next()) {
+    const std::int64_t gated_before = score.gated.value_or(0);
     blocks_touched.push_back(rows.number(10));
     score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
     score.links = rows.integer(12, 0, most);
@@ -59,7 +64,13 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
     if (!rows.is_empty(15)) score.anchoring = rows.number(15);
     if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
+    if (rows.has_newer() && !rows.is_empty(17)) {
+      const auto degrees = static_cast<int>(rows.integer(18, 0, most_degrees));
+      innovations.add(rows.number(0), rows.number(17), degrees, *score.gated - gated_before);
+    }
   }
+  score.diverged_t = innovations.fired_t();
+  score.worst_nis = innovations.worst();
   score.blocks_touched = percentiles(blocks_touched);
   score.mean_residual = percentiles(mean_residuals);
 }
@@ -107,7 +118,12 @@ void score_consistency(const std::filesystem::path& folder, EstimatorScore& scor
     pose.add(rows, 1);
     landmark.add(rows, 2);
     // Without truth nothing is known about the belief.
-    if (rows.is_empty(1) && score.trajectory.rmse) ++score.improper_beliefs;
+    if (rows.is_empty(1) && score.trajectory.rmse) {
+      ++score.improper_beliefs;
+      if (!score.improper_t) score.improper_t = rows.number(0);
+    }
+    if (pose.last.value_or(0.0) > highest_nees_pose() && !score.diverged_nees_t)
+      score.diverged_nees_t = rows.number(0);
     score.memory_bytes = rows.integer(5, 0, most);
   }
   score.nees_pose = pose.mean();
@@ -147,8 +163,11 @@ std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::
     const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
     map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
     if (rows.is_empty(3)) continue;
+    // One by one: Eigen does not let a list of coefficients be broken off, as a cell that is no number would.
     Eigen::Matrix2d covariance;
-    covariance << rows.number(3), rows.number(4), rows.number(4), rows.number(5);
+    covariance(0, 0) = rows.number(3);
+    covariance(0, 1) = covariance(1, 0) = rows.number(4);
+    covariance(1, 1) = rows.number(5);
     map.back().covariance = covariance;
   }
   return map;

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "harness/divergence.hpp"
 #include "harness/text_table.hpp"
 
 namespace harness {
@@ -64,6 +65,32 @@ std::string log_line(const Summary& summary) {
   return text + '\n';
 }
 
+/// What was not given to the estimators, a line for each kind; empty if nothing.
+std::string left_out_line(const Summary& summary) {
+  if (summary.left_out.empty()) return "";
+  std::string text =
+      fmt::format("\nNot given to the estimators, from {} s on:\n", summary.left_out_t.value_or(0.0));
+  for (const auto& [name, value] : summary.left_out) text += fmt::format("  {} {}\n", name, value);
+  return text;
+}
+
+/// Estimators that have diverged, and those whose belief was none; empty if all is well.
+std::string divergence_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (score.diverged_t)
+      text += fmt::format("{} diverged at {} s: it does not see what it expects (NIS up to {:.3g})\n",
+                          score.name, *score.diverged_t, score.worst_nis.value_or(0.0));
+    if (score.diverged_nees_t)
+      text += fmt::format("{} diverged by {} s: the NEES of its pose is above {:.1f}\n", score.name,
+                          *score.diverged_nees_t, highest_nees_pose());
+    if (score.improper_beliefs > 0)
+      text += fmt::format("{} had no positive definite belief at {} scoring times, the first at {} s\n",
+                          score.name, score.improper_beliefs, score.improper_t.value_or(0.0));
+  }
+  return text.empty() ? text : '\n' + text;
+}
+
 /// How many observations the gates of the estimators have left out; empty if none.
 std::string gate_line(const Summary& summary) {
   std::string text;
@@ -111,7 +138,8 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + gate_line(summary) + association_lines(summary);
+  text += log_line(summary) + left_out_line(summary) + gate_line(summary) + association_lines(summary) +
+          divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

@@ -95,6 +95,7 @@ SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steeri
              [this](const Eigen::Vector2d& p_robot_goal, double clearance) {
                return way_is_clear(p_robot_goal, clearance);
              }),
+      faults_(world.faults),
       line_of_sight_([this](const Eigen::Vector2d& p_world_sensor, seif::LandmarkId landmark) {
         return simulator_->line_of_sight(p_world_sensor, landmark);
       }),
@@ -111,6 +112,7 @@ LogDescription SimulatedStream::describe() const {
   log.name = world_.name;
   log.T_robot_sensor = pose_of(sensor.mount);
   log.noise = {sensor.range_sd, sensor.range_sd_per_m, sensor.bearing_sd};
+  log.max_range = sensor.max_range;
   log.start = draw_start(world_);
   log.has_truth = true;
   log.has_wheel_angles = true;
@@ -151,14 +153,20 @@ bool SimulatedStream::next(Event& event) {
   while (true) {
     // Both may be due at one step: odometry comes first.
     if (odometry_clock_.next_step() <= step_) {
+      must_steer_ = true;
+      ++odometry_clock_.ticks;
+      if (faults_.is_silent(worlds::FaultySensor::encoders, t())) continue;
       read_encoders(memory_.odometry(event));
       return true;
     }
     if (scan_clock_.next_step() <= step_) {
+      ++scan_clock_.ticks;
+      if (faults_.is_silent(worlds::FaultySensor::landmark_sensor, t())) continue;
       scan(memory_.scan(event));
       return true;
     }
     if (step_ >= last_step_) return false;
+    if (const auto place = faults_.kidnapping(t())) simulator_->place(*place);
     steer();
     simulator_->step(command_);
     ++step_;
@@ -166,15 +174,14 @@ bool SimulatedStream::next(Event& event) {
 }
 
 void SimulatedStream::read_encoders(OdometryEvent& event) {
-  ++odometry_clock_.ticks;
-  must_steer_ = true;
   event.truth = truth();
-  event.odometry = encoders_.read(event.truth->t, event.truth->left_wheel, event.truth->right_wheel);
+  const WheelJumps jumps = faults_.encoder_jumps(t());
+  event.odometry = encoders_.read(event.truth->t, event.truth->left_wheel + jumps.left,
+                                  event.truth->right_wheel + jumps.right);
   make_symmetric(event.odometry.covariance);
 }
 
 void SimulatedStream::scan(ScanEvent& event) {
-  ++scan_clock_.ticks;
   event.truth = truth();
   const seif::Pose2 T_world_sensor = event.truth->T_world_robot * description_.T_robot_sensor;
   simulator_->landmarks_within({T_world_sensor.x, T_world_sensor.y}, world_.landmark_sensor.max_range,
@@ -185,6 +192,7 @@ void SimulatedStream::scan(ScanEvent& event) {
   landmark_sensor_.scan(event.truth->t, event.truth->T_world_robot, candidates_, line_of_sight_, event.scan,
                         event.true_ids);
   for (seif::Observation& observation : event.scan.observations) make_symmetric(observation.covariance);
+  faults_.spoil(event.scan);
 }
 
 }  // namespace harness

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/drive.hpp"
+#include "harness/fault_injection.hpp"
 #include "harness/log_description.hpp"
 #include "harness/stream.hpp"
 #include "sensors/landmark_sensor.hpp"
@@ -60,6 +61,7 @@ class SimulatedStream final : public Stream {
   sensors::WheelEncoders encoders_;
   sensors::LandmarkSensor landmark_sensor_;
   Drive drive_;
+  FaultInjection faults_;
   sensors::LineOfSight line_of_sight_;
   std::int64_t step_ = 0;
   LogDescription description_;

@@ -55,6 +55,10 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["nees_landmark"] = number(score.nees_landmark);
   json["nees_landmark_final"] = number(score.nees_landmark_final);
   json["improper_beliefs"] = score.improper_beliefs;
+  json["improper_since_s"] = number(score.improper_t);
+  json["diverged_s"] = number(score.diverged_t);
+  json["nis_worst"] = number(score.worst_nis);
+  json["diverged_nees_s"] = number(score.diverged_nees_t);
   json["update_us"] = percentiles(score.update_us);
   for (std::size_t stage = 0; stage < stage_count; ++stage) {
     if (score.stage_us[stage]) json["stage_us"][stage_names[stage]] = percentiles(score.stage_us[stage]);
@@ -76,6 +80,16 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   return json;
 }
 
+void read_left_out(const Json& left_out, Summary& summary) {
+  for (const auto& [name, value] : left_out.items()) {
+    if (name == "first_s") {
+      if (!value.is_null()) summary.left_out_t = value.get<double>();
+    } else {
+      summary.left_out.emplace_back(name, value.get<std::int64_t>());
+    }
+  }
+}
+
 Summary parse_summary(std::istream& text) {
   const Json json = Json::parse(text);
   Summary summary;
@@ -91,6 +105,7 @@ Summary parse_summary(std::istream& text) {
   const Json log = json.value("log", Json::object());
   for (const auto& [name, count] : log.items())
     summary.log_counts.emplace_back(name, count.get<std::int64_t>());
+  read_left_out(json.value("left_out", Json::object()), summary);
   for (const auto& [name, score] : json.at("estimators").items()) {
     if (file_name_of(name) != name) throw BadInput(fmt::format("'{}' is no name of an estimator", name));
     summary.score.estimators.emplace_back().name = name;
@@ -134,6 +149,10 @@ std::string to_json(const Summary& summary) {
   json["rpe_interval_s"] = number(summary.rpe_interval);
   if (!summary.log_counts.empty()) {
     for (const auto& [name, count] : summary.log_counts) json["log"][name] = count;
+  }
+  if (!summary.left_out.empty()) {
+    for (const auto& [name, count] : summary.left_out) json["left_out"][name] = count;
+    json["left_out"]["first_s"] = number(summary.left_out_t);
   }
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);

@@ -22,6 +22,8 @@ struct Summary {
   double realtime_factor = 0.0;                                  // [-] duration over the time that it took
   double rpe_interval = 0.0;                                     // [s]
   std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out, if any
+  std::vector<std::pair<std::string, std::int64_t>> left_out;    // what no estimator was given, if any
+  std::optional<double> left_out_t;                              // [s] when something first was
   RunScore score;
   std::vector<std::string> failures;  // one for each of score.estimators; empty: none
 };

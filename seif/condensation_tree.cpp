@@ -163,6 +163,7 @@ bool CondensationTree::solve_window(InformationState& state) {
   auto d = step_.head(w);
   d = state.r();
   llt.solveInPlace(d);
+  lowered_ = state.r().dot(d);
   auto dr = change_.head(w);
   dr.noalias() = M * d;
   state.move_window(d, dr);

@@ -67,6 +67,9 @@ class CondensationTree {
   /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
   [[nodiscard]] bool solve_window(InformationState& state);
 
+  /// [-] r' Omega^-1 r of the last solve_window(): by how much its step has lowered the squared error.
+  double lowered() const { return lowered_; }
+
   /// After these have been dropped from the window.
   [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
 
@@ -230,6 +233,7 @@ class CondensationTree {
   Eigen::MatrixXd M_;            // (w x w), with room to grow
   Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
   Eigen::VectorXd step_, change_;              // (w), with room to grow
+  double lowered_ = 0.0;                       // [-]
   std::int64_t blocks_touched_ = 0, waited_ = 0;
 };
 

@@ -41,6 +41,8 @@ void Ekf::motion_update(const Odometry& odometry) {
 void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
   if (!update_equal()) throw NumericalFailure("merging", scan.t);
   pending_.clear();
+  innovation_ = 0.0;
+  innovation_degrees_ = 0;
   for (const Observation& observation : scan.observations) pending_.push_back(&observation);
   while (!pending_.empty()) {  // once more only if a new landmark was seen twice
     known_.clear();
@@ -128,6 +130,8 @@ bool Ekf::apply_gain(int observed) {
   if (llt.info() != Eigen::Success) return false;
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(W);
   llt.matrixL().solveInPlace(v_);
+  innovation_ += v_.squaredNorm();
+  innovation_degrees_ += 2 * k;
   mu_.head(n).noalias() += W * v_;
   mu_(2) = wrap_angle(mu_(2));
   downdate_(Sigma_, W);
@@ -221,7 +225,9 @@ Counts Ekf::counts() const {
   return {.blocks_touched = blocks_touched_,
           .active_landmarks = landmark_count(),
           .links = n * (n + 1) / 2,
-          .gated = gated_};
+          .gated = gated_,
+          .innovation = innovation_,
+          .innovation_degrees = innovation_degrees_};
 }
 
 std::optional<Eigen::Matrix3d> Ekf::pose_covariance() const {

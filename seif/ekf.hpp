@@ -91,6 +91,8 @@ class Ekf final : public AssociableFilter {
   Pose2 T_robot_sensor_;
   EkfOptions options_;
   std::int64_t gated_ = 0;
+  double innovation_ = 0.0;     // [-] v' S^-1 v of the latest scan
+  int innovation_degrees_ = 0;  // [-]
   std::int64_t blocks_touched_ = 0;
 };
 

@@ -47,6 +47,11 @@ struct Counts {
   /// [nat] Anchoring to the world frame that the sparsifications so far have left out, as sparsify() returns
   /// it.
   std::optional<double> anchoring = {};
+  /// [-] v' S^-1 v of the latest scan: of all its observations of landmarks that were known, together, but
+  /// for those left out by a gate; of what was believed before it. Of a right filter it has a chi-square
+  /// distribution with `innovation_degrees` of freedom, and is independent from scan to scan.
+  std::optional<double> innovation = {};
+  int innovation_degrees = 0;  // [-] two for each observation
 };
 
 /// A landmark of the map.

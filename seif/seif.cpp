@@ -36,6 +36,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (!by_tree_) mean_.before_information(state_);
   add_known(scan);
   solve_window(scan.t);
+  note_innovation();
   relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
   if (!by_tree_) mean_.after_information(state_);
@@ -108,6 +109,18 @@ void Seif::add_known(const Scan& scan) {
   }
   if (options_.gate > 0.0) leave_out_gated(scan.t);
   for (const ObservationFactor& factor : factors_) add(state_, factor);
+}
+
+/// v' S^-1 v of all factors together, from what the step has just left of them. With d the step of all means
+/// and C the information before the scan, the least squared error of belief and scan is
+///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - r' (C + sum J' Q^-1 J)^-1 r,   r = sum J' Q^-1
+///   v,
+/// and it is v' S^-1 v with S = J C^-1 J' + Q. With the tree, r was zero before.
+void Seif::note_innovation() {
+  innovation_ = 0.0;
+  for (const ObservationFactor& factor : factors_) innovation_ += squared_norm(factor.v, factor);
+  innovation_ = std::max(0.0, innovation_ - tree_.lowered());
+  innovation_degrees_ = 2 * static_cast<int>(factors_.size());
 }
 
 /// Those that are too far from what was expected. Each is tested by itself, before any of the scan is added.
@@ -264,7 +277,9 @@ Counts Seif::counts() const {
           .mean_residual = by_tree_ || options_.mean_recovery == SeifMean::exact
                                ? std::nullopt
                                : std::optional(mean_.residual()),
-          .anchoring = anchoring_};
+          .anchoring = anchoring_,
+          .innovation = by_tree_ ? std::optional(innovation_) : std::nullopt,
+          .innovation_degrees = by_tree_ ? innovation_degrees_ : 0};
 }
 
 void Seif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {

@@ -90,6 +90,7 @@ class Seif final : public AssociableFilter {
   void add_equal();
   void add_known(const Scan& scan);
   void leave_out_gated(double t);
+  void note_innovation();
   double squared_mahalanobis(const ObservationFactor& factor);
   bool is_closing(int slot, const Observation& observation) const;
   [[nodiscard]] bool add_new(const Scan& scan);
@@ -106,6 +107,8 @@ class Seif final : public AssociableFilter {
   Pose2 T_robot_sensor_;
   double anchoring_ = 0.0;  // [nat]
   std::int64_t gated_ = 0;
+  double innovation_ = 0.0;                               // [-] v' S^-1 v of the latest scan
+  int innovation_degrees_ = 0;                            // [-]
   Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow
   std::vector<ObservationFactor> factors_;                // of the latest scan
   std::vector<int> seen_, to_drop_;                       // slots; kept so that no update allocates

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "sim/drive_limits.hpp"
 #include "worlds/geometry.hpp"
 
 namespace sim {
@@ -22,6 +23,11 @@ void BulletSimulator::step(const Command& command) {
   robot_.read_joints();
   ++steps_;
   objects_stepped_ += stepped_.objects();
+}
+
+void BulletSimulator::place(const worlds::Placement& T_world_robot) {
+  check_place(T_world_robot);
+  robot_.place(T_world_robot);
 }
 
 RobotState BulletSimulator::robot() const {

@@ -20,6 +20,7 @@ class BulletSimulator final : public Simulator {
   explicit BulletSimulator(const worlds::World& world);
 
   void step(const Command& command) override;
+  void place(const worlds::Placement& T_world_robot) override;
   RobotState robot() const override;
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
   bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const override;

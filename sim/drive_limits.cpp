@@ -25,6 +25,12 @@ void check_drive(const worlds::Robot& robot) {
   }
 }
 
+void check_place(const worlds::Placement& T_world_robot) {
+  if (!T_world_robot.position.allFinite() || !std::isfinite(T_world_robot.heading)) {
+    throw std::invalid_argument("simulator: the robot cannot be put where nothing is finite");
+  }
+}
+
 Command limited(const Command& wanted, const Command& previous, const worlds::Robot& robot, double dt) {
   if (!std::isfinite(wanted.v) || !std::isfinite(wanted.omega)) {
     throw std::invalid_argument("simulator: a velocity command is not finite");

@@ -10,6 +10,9 @@ namespace sim {
 /// positive.
 void check_drive(const worlds::Robot& robot);
 
+/// Throws std::invalid_argument for a place that is not finite.
+void check_place(const worlds::Placement& T_world_robot);
+
 /// What a step of dt [s] makes of `wanted` after `previous`: speed and turn rate within their limits, and
 /// neither changed by more than its acceleration allows. Throws std::invalid_argument for one that is not
 /// finite.

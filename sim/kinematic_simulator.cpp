@@ -54,6 +54,12 @@ void KinematicSimulator::step(const Command& command) {
   ++steps_;
 }
 
+void KinematicSimulator::place(const worlds::Placement& T_world_robot) {
+  check_place(T_world_robot);
+  state_.position = T_world_robot.position;
+  state_.heading = T_world_robot.heading;
+}
+
 RobotState KinematicSimulator::robot() const {
   RobotState state = state_;
   state.heading = heading_of(direction(state_.heading));

@@ -16,6 +16,7 @@ class KinematicSimulator final : public Simulator {
   /// circular arc.
   void step(const Command& command) override;
 
+  void place(const worlds::Placement& T_world_robot) override;
   RobotState robot() const override;
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
 

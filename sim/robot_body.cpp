@@ -158,6 +158,29 @@ void RobotBody::read_joints() {
   right_.read_joint();
 }
 
+void RobotBody::place(const worlds::Placement& placement) {
+  const worlds::Placement now{position(), state().heading};
+  const btTransform T_new_old = T_world_robot(placement) * T_world_robot(now).inverse();
+  move(chassis_, T_new_old);
+  move(left_.body, T_new_old);
+  move(right_.body, T_new_old);
+}
+
+void RobotBody::move(btRigidBody& body, const btTransform& T_new_old) {
+  const btTransform T_world_body = T_new_old * body.getWorldTransform();
+  const btVector3 v = T_new_old.getBasis() * body.getLinearVelocity();
+  const btVector3 omega = T_new_old.getBasis() * body.getAngularVelocity();
+  body.setLinearVelocity(v);
+  body.setAngularVelocity(omega);
+  body.setCenterOfMassTransform(T_world_body);
+  body.setInterpolationLinearVelocity(v);
+  body.setInterpolationAngularVelocity(omega);
+  // Contacts know where they were.
+  world_.getBroadphase()->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseProxy(),
+                                                                         world_.getDispatcher());
+  world_.updateSingleAabb(&body);
+}
+
 Eigen::Vector2d RobotBody::position() const {
   const btVector3 p = chassis_.getWorldTransform() * -p_robot_chassis(robot_);
   return {p.x(), p.y()};

@@ -43,6 +43,9 @@ class RobotBody {
   /// To be called after each step: follows the joint angles over their wrap at +-pi.
   void read_joints();
 
+  /// Moves all bodies as one, with their velocities: as if the world had moved under the robot.
+  void place(const worlds::Placement& T_world_robot);
+
   Eigen::Vector2d position() const;
 
   /// The state but for its time.
@@ -62,6 +65,7 @@ class RobotBody {
   };
 
   void add_to_world(Wheel& wheel);
+  void move(btRigidBody& body, const btTransform& T_new_old);
 
   worlds::Robot robot_;
   worlds::Physics physics_;

@@ -56,9 +56,9 @@ class SensingWorld {
   btCollisionDispatcher dispatcher_;
   btNullPairCache no_pairs_;  // nothing moves here: pairs that overlap are of no interest
   btDbvtBroadphase broadphase_;
+  std::deque<btCollisionObject> objects_;  // the world holds pointers to them, and follows them when it goes
   btCollisionWorld world_;
-  std::deque<btCollisionObject> objects_;  // the world holds pointers to them
-  mutable std::vector<int> nearby_;        // scratch of the queries
+  mutable std::vector<int> nearby_;  // scratch of the queries
   mutable QueryCounts counts_;
 };
 

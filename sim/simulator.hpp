@@ -47,6 +47,10 @@ class Simulator {
   /// is not finite.
   virtual void step(const Command& command) = 0;
 
+  /// Puts the robot somewhere else, as it moves now: its speeds in its own frame stay, and so do its wheels'
+  /// angles. Throws std::invalid_argument for a place that is not finite.
+  virtual void place(const worlds::Placement& T_world_robot) = 0;
+
   virtual RobotState robot() const = 0;
 
   /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces what `out`

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "worlds/check_faults.hpp"
 #include "worlds/geometry.hpp"
 #include "worlds/point_grid.hpp"
 #include "worlds/shape_grid.hpp"
@@ -272,6 +273,7 @@ void check_world(const Node& document, const World& world, std::vector<Problem>&
   check_path(check);
   check_landmarks(check);
   check_engine(check);
+  check_faults(document, world, problems);
   check_film(check);
 }
 

@@ -7,14 +7,14 @@
 #include <cmath>
 #include <string_view>
 
+#include "worlds/describe_fault.hpp"
+#include "worlds/describe_parts.hpp"
 #include "worlds/film_layers.hpp"
 
 namespace worlds {
 namespace {
 
 // Limits that keep a slip of the finger from asking for more than a machine has.
-constexpr double longest_duration = 1e6;   // [s]
-constexpr double largest_ground = 1e5;     // [m]
 constexpr double largest_height = 1e3;     // [m]
 constexpr double smallest_radius = 1e-3;   // [m] of a landmark
 constexpr double largest_radius = 100;     // [m] of a landmark
@@ -35,34 +35,10 @@ constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_d
                                                            "ring",    "clusters",     "corridor"};
 constexpr std::array<std::string_view, 5> camera_names = {"overview", "chase", "orbit", "top", "fixed"};
 
-/// The enumerator whose name stands at its own index. The first one for a name that is none: that was a
-/// problem.
-template <class Enum, std::size_t N>
-Enum enum_of(const std::array<std::string_view, N>& names, std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? Enum{} : static_cast<Enum>(found - names.begin());
-}
-
-template <class Enum, std::size_t N>
-std::string name_of(const std::array<std::string_view, N>& names, Enum value) {
-  return std::string(names.at(static_cast<std::size_t>(value)));
-}
-
-/// Where something can be.
-Range coordinate() { return between(-largest_ground, largest_ground); }
-
 void check_corners(Fields& fields, const Eigen::Vector2d& min, const Eigen::Vector2d& max) {
   if (fields.sound() && (min.array() >= max.array()).any()) {
     fields.problem("max_m", "'max_m' must be more than 'min_m' in x and in y");
   }
-}
-
-void describe_placement(Fields& fields, Placement& placement, Need need) {
-  fields.number("x_m", placement.position.x(), coordinate(), "east", need);
-  fields.number("y_m", placement.position.y(), coordinate(), "north", need);
-  fields.angle("heading_deg", placement.heading, between(-360, 360), "counter-clockwise from east");
-  placement.heading = std::remainder(placement.heading, 360 * degree);
-  if (placement.heading <= -180 * degree) placement.heading = 180 * degree;
 }
 
 void check_robot(Fields& fields, const Robot& robot) {
@@ -451,6 +427,7 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
     inner.section("landmark_sensor", "range and bearing of landmarks",
                   [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
   });
+  fields.list("faults", world.faults, describe_fault, "what goes wrong on purpose, each at its time");
   fields.section(
       "start_estimate", "standard deviations of the start that the estimators are given", [&](Fields& inner) {
         inner.number("x_sd_m", world.start_estimate.x_sd, more_than(0), "of x");

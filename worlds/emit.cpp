@@ -12,7 +12,8 @@ bool is_plain(std::string_view text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '.' || c == '-' || c == '+' || c == '/';
   };
-  return !text.empty() && text != "-" && text.find("---") != 0 && text.find("...") != 0 &&
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";  // would be no key, and no text
+  return !text.empty() && !is_null && text != "-" && text.find("---") != 0 && text.find("...") != 0 &&
          std::all_of(text.begin(), text.end(), is_safe);
 }
 

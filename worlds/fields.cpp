@@ -87,7 +87,7 @@ void Fields::names(std::string_view key, std::vector<std::string>& value, std::s
 }
 
 std::string_view unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 16> units = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 17> units = {{
       {"_per_m2", "per m^2"},  // longer endings come first
       {"_deg_s2", "deg/s^2"},
       {"_deg_s", "deg/s"},
@@ -97,6 +97,7 @@ std::string_view unit_of_key(std::string_view key) {
       {"_rad_s", "rad/s"},
       {"_deg", "deg"},
       {"_rad", "rad"},
+      {"_sigma", "sigma"},
       {"_kg", "kg"},
       {"_hz", "Hz"},
       {"_nm", "N m"},

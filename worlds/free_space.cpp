@@ -22,8 +22,13 @@ FreeSpace::FreeSpace(const World& world, double radius, const Clearances& clear,
   for (const Segment& leg : legs(driven_path(world), false)) {
     keep_out(rectangle(leg, 0.0), clear.path + radius);
   }
-  const Segment start{world.robot.start.position, world.robot.start.position};
-  keep_out(rectangle(start, 0.0), footprint_radius(world.robot) + radius);
+  const auto keep_out_of_robot = [&](const Eigen::Vector2d& p) {
+    keep_out(rectangle(Segment{p, p}, 0.0), footprint_radius(world.robot) + radius);
+  };
+  keep_out_of_robot(world.robot.start.position);
+  for (const Fault& fault : world.faults) {
+    if (fault.kind == FaultKind::kidnapping) keep_out_of_robot(fault.to.position);
+  }
 }
 
 bool FreeSpace::is_free(const Eigen::Vector2d& p) const {

@@ -24,4 +24,6 @@ void raise_limits(double factor) {
                       raised(usual.fruitless_tries)};
 }
 
+void set_limits(const Limits& limits) { present_limits() = limits; }
+
 }  // namespace worlds

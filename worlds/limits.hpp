@@ -21,4 +21,7 @@ const Limits& limits();
 /// factor that is not from 1 to 100: ids are 32 bits wide.
 void raise_limits(double factor);
 
+/// For programs that read files by the thousand. To be called before anything is read.
+void set_limits(const Limits& limits);
+
 }  // namespace worlds

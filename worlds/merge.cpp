@@ -103,6 +103,12 @@ Node empty_map(const Location& where) {
   return node;
 }
 
+/// What keys, names and indices are made of. Other bytes would come into a document that no file could hold.
+bool is_word(std::string_view text) {
+  return text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
+         std::string_view::npos;
+}
+
 /// One step of a path: the child, made if it is missing in a map. Null and a message if there can be none.
 Node* step_into(Node& node, std::string_view step, const Location& where, std::string& message) {
   if (node.kind == Node::Kind::sequence) {
@@ -156,6 +162,7 @@ void apply_override(Node& root, const std::string& assignment, std::vector<Probl
     path.remove_prefix(more ? dot + 1 : path.size());
     std::string message;
     if (step.empty()) return refuse("a part of the path is empty");
+    if (!is_word(step)) return refuse("a part of the path is no word of letters, digits, '_' and '-'");
     node = step_into(*node, step, where, message);
     if (node == nullptr) return refuse(message);
   }

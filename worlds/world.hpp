@@ -10,15 +10,11 @@
 #include <variant>
 #include <vector>
 
+#include "worlds/fault.hpp"
+
 namespace worlds {
 
 inline constexpr double degree = std::numbers::pi / 180;  // [rad]
-
-/// Where something stands on the plane.
-struct Placement {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world [m]
-  double heading = 0.0;                                // [rad] in (-pi, pi]
-};
 
 struct Caster {
   double offset = -0.18;  // [m] along the robot's x from the axle; negative is behind
@@ -212,6 +208,7 @@ struct World {
   Drive drive;
   Encoders encoders;
   LandmarkSensor landmark_sensor;
+  std::vector<Fault> faults;
   StartEstimate start_estimate;
   std::vector<EstimatorChoice> estimators;  // in the order of the file
   Scoring scoring;

@@ -16,6 +16,7 @@ class TimedSimulator final : public sim::Simulator {
 
   void step(const sim::Command& command) override;
 
+  void place(const worlds::Placement& T_world_robot) override { simulator_->place(T_world_robot); }
   sim::RobotState robot() const override { return simulator_->robot(); }
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override {
     simulator_->landmarks_within(p_world, radius, out);

@@ -53,6 +53,26 @@ TEST(Csv, ReadsWindowsLineEndsAndALastLineWithoutEnd) {
   EXPECT_FALSE(reader.next());
 }
 
+TEST(Csv, ColumnsOfNewerVersionsMayBeMissing) {
+  const TemporaryFolder folder;
+  const Columns columns{{"t"}, {"gated"}, {"innovation", "degrees"}};
+  write_file(folder / "oldest.csv", "t\n1\n");
+  write_file(folder / "old.csv", "t,gated\n1,2\n");
+  write_file(folder / "new.csv", "t,gated,innovation,degrees\n1,2,3.5,4\n");
+  write_file(folder / "odd.csv", "t,innovation,degrees\n1,3.5,4\n");
+  EXPECT_FALSE(CsvReader(folder / "oldest.csv", columns).has_optional());
+  CsvReader old(folder / "old.csv", columns);
+  EXPECT_TRUE(old.has_optional());
+  EXPECT_FALSE(old.has_newer());
+  CsvReader newest(folder / "new.csv", columns);
+  EXPECT_TRUE(newest.has_optional());
+  EXPECT_TRUE(newest.has_newer());
+  ASSERT_TRUE(newest.next());
+  EXPECT_EQ(newest.number(2), 3.5);
+  EXPECT_EQ(newest.integer(3, 0, 9), 4);
+  EXPECT_THROW(CsvReader(folder / "odd.csv", columns), BadInput);
+}
+
 TEST(Csv, ALineWithoutEndUsesNoMemory) {
   const TemporaryFolder folder;
   write_file(folder / "a.csv", "a\n" + std::string(1 << 20, '1'));

@@ -122,6 +122,31 @@ INSTANTIATE_TEST_SUITE_P(All, GalleryWorld,
                                          "slippery", "umbmark"),
                          [](const auto& world) { return std::string(world.param); });
 
+// Ice and wrong wheels make innovations too large, and are no divergence; being carried off is.
+TEST_P(GalleryWorld, HasNoFilterOfOursThatSaysItDiverged) {
+  const TemporaryFolder folder;
+  worlds::World world = gallery_world(GetParam(), {"duration_s=400"});
+  std::erase_if(world.estimators, [](const worlds::EstimatorChoice& c) { return c.type == "seif_report"; });
+  const RunResult result = test::run_live(world, folder / "run");
+  ASSERT_FALSE(result.summary.score.estimators.empty());
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    EXPECT_FALSE(score.diverged_t) << score.name << ", NIS up to " << score.worst_nis.value_or(0.0);
+    EXPECT_TRUE(score.worst_nis) << score.name;
+  }
+}
+
+TEST(Gallery, FaultsAreToldWhereTheRobotIsCarriedOffAndNotBefore) {
+  const TemporaryFolder folder;
+  const RunResult result = test::run_live(gallery_world("faults", {}), folder / "run");
+  EXPECT_EQ(result.summary.left_out.size(), 2U);
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    ASSERT_TRUE(score.diverged_t) << score.name;
+    EXPECT_GT(*score.diverged_t, 100.0) << score.name;
+    EXPECT_LT(*score.diverged_t, 105.0) << score.name;
+    EXPECT_GE(score.diverged_nees_t, 100.0) << score.name;
+  }
+}
+
 TEST_P(GalleryWorld, RunsAndSeesLandmarks) {
   const TemporaryFolder folder;
   const RunResult result = test::run_live(gallery_world(GetParam(), {"duration_s=10"}), folder / "run");

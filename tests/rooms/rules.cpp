@@ -112,7 +112,10 @@ const std::array<Library, 10>& libraries() {
        [](View path) { return is_inside(path, "harness/peers") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; },
-       [](View path) { return is_inside(path, "harness") || is_inside(path, "tests/harness"); }},
+       [](View path) {
+         return is_inside(path, "harness") || is_inside(path, "tests/harness") ||
+                is_inside(path, "tests/soak");
+       }},
   }};
   return all;
 }
@@ -126,6 +129,9 @@ std::string_view name_of(const Room& room) { return room.folder.substr(room.fold
 
 /// The room of a file, or of the file that a test is about; null for what is in none.
 const Room* room_of(std::string_view path) {
+  for (const std::string_view whole : {"tests/fuzz", "tests/soak"}) {  // of all rooms together
+    if (is_inside(path, whole)) return &all_rooms().back();
+  }
   const bool test = is_inside(path, "tests");
   if (test) path.remove_prefix(std::string_view("tests/").size());
   const auto found = std::ranges::find_if(

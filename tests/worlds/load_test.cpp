@@ -185,7 +185,7 @@ TEST(LoadWorld, ReadsEstimatorsInTheOrderOfTheFile) {
   EXPECT_EQ(std::get<std::int64_t>(estimators[0].options.at("theta_x")), 16);
   EXPECT_EQ(std::get<std::int64_t>(estimators[0].options.at("K")), 10);
   EXPECT_EQ(estimators[1].type, "ekf");
-  EXPECT_TRUE(estimators[1].options.empty());
+  EXPECT_EQ(std::get<double>(estimators[1].options.at("gate")), 0.0);
 }
 
 TEST(LoadWorld, RefusesEstimatorsThatAreNone) {
@@ -333,6 +333,16 @@ TEST(LoadWorld, WritesTheVersionOfTheProgramIntoTheResolvedFile) {
   const auto file = folder.write("world.yaml", "seifbed_version: \"0.0.1\"\n");
   EXPECT_EQ(load_world(file, {}, fake_estimators(), "1.2.3").resolved.find("seifbed_version: \"1.2.3\"\n"),
             0U);
+}
+
+// A name that YAML takes for nothing unless it stands in quotes.
+TEST(LoadWorld, AnEstimatorMayBeCalledNull) {
+  const Folder folder;
+  const LoadResult first = load_text(folder, "estimators: {\"null\": {type: ekf}, \"NULL\": {type: seif}}\n");
+  ASSERT_TRUE(first.world) << test::text_of(first.problems);
+  const LoadResult again = load_text(folder, first.resolved);
+  ASSERT_TRUE(again.world) << test::text_of(again.problems) << first.resolved;
+  EXPECT_EQ(again.world->estimators.back().name, "NULL");
 }
 
 }  // namespace

@@ -78,8 +78,8 @@ TEST(Override, NamesItselfInItsProblemsAndChangesNothing) {
   Node root = parse("a: {b: 1}\nlist: [1]\n");
   const std::string before = emit(root);
   EXPECT_EQ(set(root, "list.1=5"), "--set list.1=5: '1' is no index of a list of 1: the first item is 0\n");
-  for (const char* assignment :
-       {"a.b.c=1", "list.x=1", "a", "=1", "a..b=1", "a.b=[1", "a.b=", "new.x.=1", "extends=x"}) {
+  for (const char* assignment : {"a.b.c=1", "list.x=1", "a", "=1", "a..b=1", "a.b=[1", "a.b=", "new.x.=1",
+                                 "extends=x", "a b.c=1", "a.\xe1=1", "a.b\n=1"}) {
     EXPECT_EQ(set(root, assignment).find(std::string("--set ") + assignment + ": "), 0U) << assignment;
   }
   EXPECT_EQ(emit(root), before);

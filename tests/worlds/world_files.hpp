@@ -42,7 +42,11 @@ class Folder {
 /// Stand-ins with the names and some of the options of the real ones.
 inline EstimatorSchemas fake_estimators() {
   EstimatorSchemas schemas;
-  schemas["ekf"] = [](Fields&, std::map<std::string, OptionValue>&) {};
+  schemas["ekf"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
+    double gate = 0.0;
+    fields.number("gate", gate, at_least(0), "of observations");
+    options["gate"] = gate;
+  };
   schemas["seif"] = schemas["ekf"];
   schemas["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
     std::int64_t theta_x = 6;
@@ -60,8 +64,8 @@ inline std::filesystem::path gallery_file(const std::string& name) {
 }
 
 inline const std::vector<std::string>& gallery() {
-  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",     "orchard",
-                                                 "forest",    "walls",      "slippery", "umbmark"};
+  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",    "orchard", "forest",
+                                                 "walls",     "slippery",   "umbmark", "faults"};
   return names;
 }
 

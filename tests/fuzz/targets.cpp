@@ -1,0 +1,11 @@
+#include "targets.hpp"
+
+namespace fuzz {
+
+const std::map<std::string_view, Target>& targets() {
+  static const std::map<std::string_view, Target> all = {
+      {"worlds", read_world}, {"overrides", read_override}, {"logs", read_log}, {"runs", read_run}};
+  return all;
+}
+
+}  // namespace fuzz

@@ -1,0 +1,56 @@
+#include "worlds/describe_fault.hpp"
+
+#include "worlds/describe_parts.hpp"
+#include "worlds/world.hpp"
+
+namespace worlds {
+namespace {
+
+constexpr std::array<std::string_view, 5> kind_names = {"bad_observation", "outlier", "encoder_jump",
+                                                        "silence", "kidnapping"};
+constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infinite", "absurd"};
+constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
+constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
+
+constexpr double largest_jump = 36'000;  // [deg] a hundred turns
+
+std::vector<Fields::Case> fault_cases(Fault& fault) {
+  return {
+      {"bad_observation", "the range of the first landmark that is seen is no measurement",
+       [&](Fields& fields) {
+         describe_choice(fields, "value", fault.value, value_names,
+                         "what it is; absurd: a thousand kilometres");
+       }},
+      {"outlier", "the bearing of the first landmark that is seen is off",
+       [&](Fields& fields) {
+         fields.number("size_sigma", fault.size, any_number(),
+                       "by so many standard deviations, counter-clockwise", Need::required);
+       }},
+      {"encoder_jump", "the encoder of a wheel jumps, and goes on from there",
+       [&](Fields& fields) {
+         describe_choice(fields, "wheel", fault.wheel, wheel_names, "whose", Need::required);
+         fields.angle("jump_deg", fault.jump, between(-largest_jump, largest_jump), "forwards",
+                      Need::required);
+       }},
+      {"silence", "a sensor says nothing for a while",
+       [&](Fields& fields) {
+         describe_choice(fields, "sensor", fault.sensor, sensor_names, "which", Need::required);
+         fields.number("duration_s", fault.duration, more_than_up_to(0, longest_duration), "for so long",
+                       Need::required);
+       }},
+      {"kidnapping", "the robot is put somewhere else, and nothing tells it",
+       [&](Fields& fields) { describe_placement(fields, fault.to, Need::required); }},
+  };
+}
+
+}  // namespace
+
+void describe_fault(Fields& fields, Fault& fault) {
+  std::string kind;
+  fields.variant("kind", kind, fault_cases(fault), "what goes wrong", Need::required);
+  fault.kind = enum_of<FaultKind>(kind_names, kind);
+  fields.number("at_s", fault.at, between(0, longest_duration),
+                "when: it comes with the first measurement from then on", Need::required);
+}
+
+}  // namespace worlds

@@ -1,0 +1,46 @@
+// What descriptions of several sections share.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "worlds/fault.hpp"
+#include "worlds/fields.hpp"
+
+namespace worlds {
+
+inline constexpr double longest_duration = 1e6;  // [s]
+inline constexpr double largest_ground = 1e5;    // [m]
+
+/// The enumerator whose name stands at its own index. The first one for a name that is none: that was a
+/// problem.
+template <class Enum, std::size_t N>
+Enum enum_of(const std::array<std::string_view, N>& names, std::string_view name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? Enum{} : static_cast<Enum>(found - names.begin());
+}
+
+template <class Enum, std::size_t N>
+std::string name_of(const std::array<std::string_view, N>& names, Enum value) {
+  return std::string(names.at(static_cast<std::size_t>(value)));
+}
+
+/// A choice among the enumerators, by their names.
+template <class Enum, std::size_t N>
+void describe_choice(Fields& fields, std::string_view key, Enum& value,
+                     const std::array<std::string_view, N>& names, std::string_view help,
+                     Need need = Need::defaulted) {
+  std::string name = name_of(names, value);
+  fields.choice(key, name, {names.begin(), names.end()}, help, need);
+  value = enum_of<Enum>(names, name);
+}
+
+/// Where something can be.
+inline Range coordinate() { return between(-largest_ground, largest_ground); }
+
+void describe_placement(Fields& fields, Placement& placement, Need need);
+
+}  // namespace worlds
