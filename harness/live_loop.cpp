@@ -190,6 +190,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.links = counts.links;
   record.relocations = counts.relocations;
   record.gated = counts.gated;
+  record.weakened = counts.weakened;
   record.mean_residual = counts.mean_residual;
   record.anchoring = counts.anchoring;
   record.innovation = counts.innovation;

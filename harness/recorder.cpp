@@ -64,7 +64,7 @@ Recorder::EstimatorFiles Recorder::open_estimator(const std::string& name) const
       CsvWriter(folder_ / (name + "_steps.csv"),
                 "t,error_x,error_y,error_theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,"
                 "blocks_touched,active_landmarks,links,relocations,mean_residual,anchoring,gated,innovation,"
-                "innovation_degrees"),
+                "innovation_degrees,weakened"),
       CsvWriter(folder_ / (name + "_times.csv"), "t,update,motion,measurement,sparsification,mean_recovery"),
       CsvWriter(folder_ / (name + "_consistency.csv"),
                 "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes")};
@@ -143,7 +143,7 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
   write_if_known(files.steps, record.anchoring);
   files.steps.value(record.gated);
   write_if_known(files.steps, record.innovation);
-  files.steps.value(std::int64_t{record.innovation_degrees}).end_row();
+  files.steps.value(std::int64_t{record.innovation_degrees}).value(record.weakened).end_row();
 
   files.times.value(record.t).value(record.times.update);
   for (const std::optional<double>& stage : record.times.stages) write_if_known(files.times, stage);

@@ -38,8 +38,8 @@ void leave_out_costs(EstimatorScore& score) {
   score.stage_us = {};
   score.blocks_touched.reset();
   score.mean_residual.reset();
-  for (auto* count : {&score.links, &score.links_max, &score.relocations, &score.gated, &score.active_max,
-                      &score.memory_bytes})
+  for (auto* count : {&score.links, &score.links_max, &score.relocations, &score.gated, &score.weakened,
+                      &score.active_max, &score.memory_bytes})
     count->reset();
   score.anchoring.reset();
 }

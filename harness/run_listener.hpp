@@ -31,6 +31,7 @@ struct UpdateRecord {
   std::int64_t links = 0;                         // [-]
   std::int64_t relocations = 0;                   // [-] so far
   std::int64_t gated = 0;                         // [-] observations left out so far
+  std::int64_t weakened = 0;                      // [-] observations that counted less, so far
   std::optional<double> mean_residual;            // [-] as in seif::Counts
   std::optional<double> anchoring;                // [nat] so far
   std::optional<double> innovation;               // [-] v' S^-1 v of this scan, as in seif::Counts

@@ -50,7 +50,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
       {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
         "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
        {"gated"},
-       {"innovation", "innovation_degrees"}});
+       {"innovation", "innovation_degrees", "weakened"}});
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
   InnovationTest innovations;
@@ -64,6 +64,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
     if (!rows.is_empty(15)) score.anchoring = rows.number(15);
     if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
+    if (rows.has_newer()) score.weakened = rows.integer(19, 0, most);
     if (rows.has_newer() && !rows.is_empty(17)) {
       const auto degrees = static_cast<int>(rows.integer(18, 0, most_degrees));
       innovations.add(rows.number(0), rows.number(17), degrees, *score.gated - gated_before);

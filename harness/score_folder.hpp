@@ -38,6 +38,7 @@ struct EstimatorScore {
   std::optional<std::int64_t> links_max;                         // [-]
   std::optional<std::int64_t> relocations;                       // [-] in all
   std::optional<std::int64_t> gated;                             // [-] observations left out in all
+  std::optional<std::int64_t> weakened;                          // [-] observations that counted less, in all
   std::optional<double> associations_right;     // [-] share of those that an estimator found by itself
   std::optional<double> associations_left_out;  // [-] share of the observations that it took for nothing
   std::optional<Percentiles> mean_residual;     // [-] after an update

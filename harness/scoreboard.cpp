@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <optional>
+#include <string_view>
 
 #include "harness/divergence.hpp"
 #include "harness/text_table.hpp"
@@ -91,15 +93,21 @@ std::string divergence_lines(const Summary& summary) {
   return text.empty() ? text : '\n' + text;
 }
 
-/// How many observations the gates of the estimators have left out; empty if none.
-std::string gate_line(const Summary& summary) {
+/// What the estimators have counted of this sort, if it is not zero; empty if none has.
+std::string count_line(const Summary& summary, std::string_view what,
+                       std::optional<std::int64_t> EstimatorScore::*count) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {
-    if (score.gated.value_or(0) > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "\nObservations left out by the gate: " : ", ",
-                          score.name, *score.gated);
+    if ((score.*count).value_or(0) > 0)
+      text += fmt::format("{} {} {}", text.empty() ? fmt::format("\n{}:", what) : ",", score.name,
+                          *(score.*count));
   }
   return text.empty() ? text : text + '\n';
+}
+
+std::string gate_line(const Summary& summary) {
+  return count_line(summary, "Observations left out by the gate", &EstimatorScore::gated) +
+         count_line(summary, "Observations that counted less", &EstimatorScore::weakened);
 }
 
 /// What the estimators that give names of their own made of the observations; empty without such.

@@ -68,6 +68,7 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
   json["gated"] = count(score.gated);
+  json["weakened"] = count(score.weakened);
   if (score.associations_left_out) {
     json["associations_right"] = number(score.associations_right);
     json["associations_left_out"] = number(score.associations_left_out);

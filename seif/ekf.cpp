@@ -71,18 +71,30 @@ void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
   done(Stage::measurement);
 }
 
-/// Whether what was seen is too far from what was expected; counts it then.
-bool Ekf::is_gated(const Linearised& linearised) {
-  if (options_.gate <= 0.0) return false;
+/// v' S^-1 v of it alone.
+double Ekf::squared_mahalanobis(const Linearised& linearised) const {
   Eigen::Matrix<double, 5, 5> P = Eigen::Matrix<double, 5, 5>::Zero();  // lower triangle
   P.topLeftCorner<3, 3>() = Sigma_.topLeftCorner<3, 3>();
   P.bottomLeftCorner<2, 3>() = Sigma_.block<2, 3>(linearised.row, 0);
   P.bottomRightCorner<2, 2>() = Sigma_.block<2, 2>(linearised.row, linearised.row);
   const Eigen::Matrix2d S =
       linearised.J * P.selfadjointView<Eigen::Lower>() * linearised.J.transpose() + linearised.Q;
-  const bool gated = linearised.v.dot(S.inverse() * linearised.v) > options_.gate;
-  if (gated) ++gated_;
-  return gated;
+  return linearised.v.dot(S.inverse() * linearised.v);
+}
+
+/// Whether what was seen is too far from what was expected; what is far from it, but not so far, is weakened.
+/// Counts both.
+bool Ekf::is_gated(Linearised& linearised) {
+  if (options_.gate <= 0.0 && options_.robust_above <= 0.0) return false;
+  const double squared = squared_mahalanobis(linearised);
+  if (options_.gate > 0.0 && squared > options_.gate) {
+    ++gated_;
+    return true;
+  }
+  const double times = times_above(squared, options_.robust_above);
+  linearised.Q *= times;
+  if (times > 1.0) ++weakened_;
+  return false;
 }
 
 /// Copies the full columns [row, row + Width) of Sigma to columns_ from column `to`; what lies above the
@@ -119,10 +131,13 @@ bool Ekf::update_known() {
         known.J.leftCols<3>() * W.topRows<3>() + known.J.rightCols<2>() * W.middleRows<2>(known.row);
     S_.block<2, 2>(2 * i, 2 * i) += known.Q;
   }
-  return apply_gain(2 * k);
+  if (!apply_gain(2 * k)) return false;
+  innovation_ += v_.squaredNorm();
+  innovation_degrees_ += 2 * k;
+  return true;
 }
 
-/// Of `observed` quantities with W_ = Sigma C, S_ and v_.
+/// Of `observed` quantities with W_ = Sigma C, S_ and v_, which becomes L^-1 v.
 bool Ekf::apply_gain(int observed) {
   const int n = size();
   auto W = W_.topLeftCorner(n, observed);
@@ -130,8 +145,6 @@ bool Ekf::apply_gain(int observed) {
   if (llt.info() != Eigen::Success) return false;
   llt.matrixU().solveInPlace<Eigen::OnTheRight>(W);
   llt.matrixL().solveInPlace(v_);
-  innovation_ += v_.squaredNorm();
-  innovation_degrees_ += 2 * k;
   mu_.head(n).noalias() += W * v_;
   mu_(2) = wrap_angle(mu_(2));
   downdate_(Sigma_, W);
@@ -226,6 +239,7 @@ Counts Ekf::counts() const {
           .active_landmarks = landmark_count(),
           .links = n * (n + 1) / 2,
           .gated = gated_,
+          .weakened = weakened_,
           .innovation = innovation_,
           .innovation_degrees = innovation_degrees_};
 }

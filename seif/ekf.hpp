@@ -16,6 +16,9 @@ struct EkfOptions {
   /// [-] An observation of a known landmark is left out if its innovation v has v' S^-1 v above this; 0:
   /// never.
   double gate = 0.0;
+  /// [sigma] An observation of a known landmark whose innovation has sqrt(v' S^-1 v) above this gets a larger
+  /// covariance, by how many times it is above it, which is Huber's weight; 0: never.
+  double robust_above = 0.0;
 };
 
 /// Covariance form; all known landmarks of a scan in one update, on the lower triangle alone. O(N^2) for each
@@ -64,7 +67,8 @@ class Ekf final : public AssociableFilter {
 
   int landmark_count() const { return static_cast<int>(ids_.size()); }
   int size() const { return 3 + 2 * landmark_count(); }
-  bool is_gated(const Linearised& linearised);
+  double squared_mahalanobis(const Linearised& linearised) const;
+  bool is_gated(Linearised& linearised);
   static int row_of(int slot) { return 3 + 2 * slot; }
   void set_pose(const Pose2& pose);
   template <int Width>
@@ -90,7 +94,7 @@ class Ekf final : public AssociableFilter {
   LandmarkIndex index_;
   Pose2 T_robot_sensor_;
   EkfOptions options_;
-  std::int64_t gated_ = 0;
+  std::int64_t gated_ = 0, weakened_ = 0;
   double innovation_ = 0.0;     // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;  // [-]
   std::int64_t blocks_touched_ = 0;

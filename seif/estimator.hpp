@@ -37,6 +37,7 @@ struct Counts {
   std::int64_t relocations =
       0;                   // [-] times the robot was marginalised out and put back, since the filter was made
   std::int64_t gated = 0;  // [-] observations of known landmarks left out: too far from what was expected
+  std::int64_t weakened = 0;  // [-] those that counted less, since they were far from it
 
   // Diagnostics that cost constant time; nothing from filters that do not have them.
 

@@ -25,6 +25,8 @@ Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
       by_tree_(options.mean_recovery == SeifMean::tree),
       T_robot_sensor_(setup.T_robot_sensor) {
   if (options_.gate > 0.0 && !by_tree_) throw std::invalid_argument("gate needs mean_recovery: tree");
+  if (options_.robust_above > 0.0 && !by_tree_)
+    throw std::invalid_argument("robust_above needs mean_recovery: tree");
   if (options_.first_estimates > 0) state_.use_first_estimates(options_.first_estimates);
 }
 
@@ -71,7 +73,8 @@ void Seif::activate_known(const Scan& scan) {
 
 /// m_a - m_b = 0, of landmarks that are active. Where their first estimates lie apart, turning everything
 /// must move this as it moves them, or the filter would learn a heading from it.
-void Seif::add_equal() {
+void Seif::add_equal(double t) {
+  if (equal_.empty()) return;
   for (const auto& [a, b] : equal_) {
     if (state_.position(a) < 0 || state_.position(b) < 0) continue;
     const Eigen::Vector2d apart = state_.mean(a) - state_.mean(b);
@@ -94,11 +97,12 @@ void Seif::add_equal() {
     state_.touch(6);
   }
   equal_.clear();
+  solve_window(t);  // what it moves is no innovation of the scan
 }
 
 /// All linearised before the first is added.
 void Seif::add_known(const Scan& scan) {
-  add_equal();
+  add_equal(scan.t);
   factors_.clear();
   for (const Observation& observation : scan.observations) {
     const std::optional<int> slot = state_.find(observation.landmark);
@@ -107,15 +111,14 @@ void Seif::add_known(const Scan& scan) {
                            ? linearise_at_measurement(state_, *slot, observation, T_robot_sensor_)
                            : linearise(state_, *slot, observation, T_robot_sensor_));
   }
-  if (options_.gate > 0.0) leave_out_gated(scan.t);
+  if (options_.gate > 0.0 || options_.robust_above > 0.0) check_innovations(scan.t);
   for (const ObservationFactor& factor : factors_) add(state_, factor);
 }
 
 /// v' S^-1 v of all factors together, from what the step has just left of them. With d the step of all means
 /// and C the information before the scan, the least squared error of belief and scan is
-///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - r' (C + sum J' Q^-1 J)^-1 r,   r = sum J' Q^-1
-///   v,
-/// and it is v' S^-1 v with S = J C^-1 J' + Q. With the tree, r was zero before.
+///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - r' (C + sum J' Q^-1 J)^-1 r,
+/// r = sum J' Q^-1 v, and it is v' S^-1 v with S = J C^-1 J' + Q. With the tree, r was zero before.
 void Seif::note_innovation() {
   innovation_ = 0.0;
   for (const ObservationFactor& factor : factors_) innovation_ += squared_norm(factor.v, factor);
@@ -123,12 +126,19 @@ void Seif::note_innovation() {
   innovation_degrees_ = 2 * static_cast<int>(factors_.size());
 }
 
-/// Those that are too far from what was expected. Each is tested by itself, before any of the scan is added.
-void Seif::leave_out_gated(double t) {
+/// Leaves out those that are too far from what was expected, and weakens those that are far from it. Each is
+/// looked at by itself, before any of the scan is added.
+void Seif::check_innovations(double t) {
   if (factors_.empty()) return;
   solve_window(t);  // for its factor; where r is zero already, nothing moves
-  gated_ += static_cast<std::int64_t>(std::erase_if(factors_, [this](const ObservationFactor& factor) {
-    return squared_mahalanobis(factor) > options_.gate;
+  gated_ += static_cast<std::int64_t>(std::erase_if(factors_, [this](ObservationFactor& factor) {
+    const double squared = squared_mahalanobis(factor);
+    if (options_.gate > 0.0 && squared > options_.gate) return true;
+    const double times = times_above(squared, options_.robust_above);
+    factor.observation.covariance *= times;
+    factor.Q_inverse /= times;
+    if (times > 1.0) ++weakened_;
+    return false;
   }));
 }
 
@@ -274,6 +284,7 @@ Counts Seif::counts() const {
           .active_landmarks = state_.active_count(),
           .links = state_.link_count(),
           .gated = gated_,
+          .weakened = weakened_,
           .mean_residual = by_tree_ || options_.mean_recovery == SeifMean::exact
                                ? std::nullopt
                                : std::optional(mean_.residual()),

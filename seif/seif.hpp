@@ -36,6 +36,9 @@ struct SeifOptions {
   /// [-] An observation of a known landmark is left out if its innovation v has v' S^-1 v above this; 0:
   /// never. Needs mean_recovery tree, whose window knows its covariance in constant time.
   double gate = 0.0;
+  /// [sigma] An observation of a known landmark whose innovation has sqrt(v' S^-1 v) above this gets a larger
+  /// covariance, by how many times it is above it, which is Huber's weight; 0: never. Needs the same.
+  double robust_above = 0.0;
   SeifMean mean_recovery = SeifMean::tree;
   MultilevelOptions multilevel = {};
   CondensationOptions tree = {};
@@ -87,9 +90,9 @@ class Seif final : public AssociableFilter {
  private:
   Eigen::Vector2d mean(int slot) const;
   void activate_known(const Scan& scan);
-  void add_equal();
+  void add_equal(double t);
   void add_known(const Scan& scan);
-  void leave_out_gated(double t);
+  void check_innovations(double t);
   void note_innovation();
   double squared_mahalanobis(const ObservationFactor& factor);
   bool is_closing(int slot, const Observation& observation) const;
@@ -106,7 +109,7 @@ class Seif final : public AssociableFilter {
   const bool by_tree_;  // whether the mean is the tree's
   Pose2 T_robot_sensor_;
   double anchoring_ = 0.0;  // [nat]
-  std::int64_t gated_ = 0;
+  std::int64_t gated_ = 0, weakened_ = 0;
   double innovation_ = 0.0;                               // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;                            // [-]
   Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow

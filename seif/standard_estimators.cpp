@@ -55,6 +55,14 @@ const OptionSpec gate{.key = "gate",
                           "normalised, is above this; "
                           "0: never; 13.8 leaves out one in a thousand that are right [-]."};
 
+const OptionSpec robust_above{
+    .key = "robust_above",
+    .fallback = 0.0,
+    .min = 0.0,
+    .help =
+        "An observation of a known landmark whose innovation is more than this many sigma counts less, by "
+        "Huber's weight; 0: never; 3 is usual [sigma]."};
+
 template <class Filter>
 EstimatorType without_options(const std::string& name, const std::string& help) {
   return {.name = name, .help = help, .options = {}, .make = [](const EstimatorSetup& setup, const Options&) {
@@ -228,8 +236,8 @@ EstimatorType seif() {
               "Ours: gauge-free sparsification, null space from first estimates, mean along a tree; constant "
               "time.",
           .options = with_association({theta_x, theta_max, first_estimates, relinearise_above, closing_gate,
-                                       gate, mean_recovery, other_groups, relaxed_groups, tree_unknowns,
-                                       tree_grain, tree_blocks}),
+                                       gate, robust_above, mean_recovery, other_groups, relaxed_groups,
+                                       tree_unknowns, tree_grain, tree_blocks}),
           .make = [=](const EstimatorSetup& setup, const Options& options) {
             SeifOptions chosen;
             chosen.theta_x = integer(options, theta_x);
@@ -238,6 +246,7 @@ EstimatorType seif() {
             chosen.relinearise_above = option<double>(options, relinearise_above.key);
             chosen.closing_gate = option<double>(options, closing_gate.key);
             chosen.gate = option<double>(options, gate.key);
+            chosen.robust_above = option<double>(options, robust_above.key);
             chosen.mean_recovery = seif_means.at(option<std::string>(options, mean_recovery.key));
             chosen.multilevel.other_groups = integer(options, other_groups);
             chosen.multilevel.relaxed_groups = integer(options, relaxed_groups);
@@ -255,11 +264,12 @@ EstimatorType ekf() {
   return {
       .name = "ekf",
       .help = "The dense extended Kalman filter: exact up to linearisation, quadratic time; the baseline.",
-      .options = with_association({gate}),
+      .options = with_association({gate, robust_above}),
       .make = [](const EstimatorSetup& setup, const Options& options) {
-        return associating(
-            std::make_unique<Ekf>(setup, EkfOptions{.gate = option<double>(options, gate.key)}), setup,
-            options);
+        return associating(std::make_unique<Ekf>(
+                               setup, EkfOptions{.gate = option<double>(options, gate.key),
+                                                 .robust_above = option<double>(options, robust_above.key)}),
+                           setup, options);
       }};
 }
 

@@ -38,7 +38,7 @@ TEST(Run, WritesTheDocumentedFiles) {
       {"ekf_map.csv", "landmark,x,y,cov_xx,cov_xy,cov_yy"},
       {"ekf_steps.csv",
        "t,error_x,error_y,error_theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,blocks_touched,active_"
-       "landmarks,links,relocations,mean_residual,anchoring,gated,innovation,innovation_degrees"},
+       "landmarks,links,relocations,mean_residual,anchoring,gated,innovation,innovation_degrees,weakened"},
       {"ekf_times.csv", "t,update,motion,measurement,sparsification,mean_recovery"},
       {"ekf_consistency.csv", "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes"}};
   for (const auto& [file, header] : headers) EXPECT_EQ(first_line(folder / "run" / file), header) << file;
