@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Values, BadObservation,
 TEST_P(BadObservation, IsLeftOutCountedAndTold) {
   const TemporaryFolder folder;
   const worlds::World world =
-      world_with({{.kind = FaultKind::bad_observation, .at = at, .value = GetParam()}});
+      world_with({{.kind = FaultKind::bad_observation, .at = at, .value = GetParam(), .to = {}}});
   const RunResult result = run_live(world, folder / "run");
   EXPECT_EQ(exit_code(result), 0);
   ASSERT_EQ(result.summary.left_out.size(), 1U);
@@ -104,7 +104,7 @@ TEST_P(BadObservation, IsLeftOutCountedAndTold) {
 TEST(Outlier, OfAHundredSigmaBendsWhatHasNoGateAndIsToldOfThat) {
   const TemporaryFolder folder;
   const RunResult result =
-      run_live(world_with({{.kind = FaultKind::outlier, .at = at, .size = 100.0}}), folder / "run");
+      run_live(world_with({{.kind = FaultKind::outlier, .at = at, .size = 100.0, .to = {}}}), folder / "run");
   for (const std::string name : {"ekf", "seif"}) {
     const EstimatorScore& score = score_of(result, name);
     ASSERT_TRUE(score.diverged_t) << name;
@@ -122,15 +122,18 @@ TEST(Outlier, OfAHundredSigmaBendsWhatHasNoGateAndIsToldOfThat) {
 TEST(Outlier, OfTwoSigmaIsNoNews) {
   const TemporaryFolder folder;
   const RunResult result =
-      run_live(world_with({{.kind = FaultKind::outlier, .at = at, .size = 2.0}}), folder / "run");
+      run_live(world_with({{.kind = FaultKind::outlier, .at = at, .size = 2.0, .to = {}}}), folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators)
     EXPECT_FALSE(score.diverged_t) << score.name;
 }
 
 TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {
   const TemporaryFolder folder;
-  const worlds::World world = world_with(
-      {{.kind = FaultKind::encoder_jump, .at = at, .wheel = worlds::Wheel::right, .jump = std::numbers::pi}});
+  const worlds::World world = world_with({{.kind = FaultKind::encoder_jump,
+                                           .at = at,
+                                           .wheel = worlds::Wheel::right,
+                                           .jump = std::numbers::pi,
+                                           .to = {}}});
   const RunResult result = run_live(world, folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators) {
     ASSERT_TRUE(score.diverged_t) << score.name;
@@ -167,7 +170,8 @@ std::vector<double> times_in(const std::filesystem::path& run) {
 
 TEST(Silence, OfTheLandmarkSensorIsAGapThatRightFiltersBridge) {
   const TemporaryFolder folder;
-  Fault silence{.kind = FaultKind::silence, .at = at, .sensor = worlds::FaultySensor::landmark_sensor};
+  Fault silence{
+      .kind = FaultKind::silence, .at = at, .sensor = worlds::FaultySensor::landmark_sensor, .to = {}};
   silence.duration = 10.0;
   const RunResult result = run_live(world_with({silence}), folder / "run");
   const std::vector<double> scans = times_in<ScanEvent>(folder / "run");
@@ -184,7 +188,7 @@ TEST(Silence, OfTheLandmarkSensorIsAGapThatRightFiltersBridge) {
 // The encoders count on: the first increment after the gap holds all of it.
 TEST(Silence, OfTheEncodersEndsWithOneLongIncrement) {
   const TemporaryFolder folder;
-  Fault silence{.kind = FaultKind::silence, .at = at, .sensor = worlds::FaultySensor::encoders};
+  Fault silence{.kind = FaultKind::silence, .at = at, .sensor = worlds::FaultySensor::encoders, .to = {}};
   silence.duration = 1.0;
   run_live(world_with({silence}), folder / "run");
   const std::vector<double> increments = times_in<OdometryEvent>(folder / "run");
@@ -255,7 +259,8 @@ std::string up_to_the_fault(const std::filesystem::path& table) {
 TEST(InjectedFaults, ChangeNothingBeforeTheirTime) {
   const TemporaryFolder folder;
   run_live(world_with({}), folder / "without");
-  run_live(world_with({kidnapping(), {.kind = FaultKind::bad_observation, .at = at + 1.0}}), folder / "with");
+  run_live(world_with({kidnapping(), {.kind = FaultKind::bad_observation, .at = at + 1.0, .to = {}}}),
+           folder / "with");
   for (const char* table : {"odometry.csv", "observations.csv", "ekf.tum", "seif.tum"}) {
     const std::string kept = up_to_the_fault(folder / "without" / table);
     EXPECT_GT(kept.size(), 1000U) << table;
@@ -265,9 +270,9 @@ TEST(InjectedFaults, ChangeNothingBeforeTheirTime) {
 
 TEST(InjectedFaults, ComeAgainToTheBit) {
   const TemporaryFolder folder;
-  const std::vector<Fault> faults = {{.kind = FaultKind::bad_observation, .at = 5.0},
-                                     {.kind = FaultKind::outlier, .at = 8.0, .size = 30.0},
-                                     {.kind = FaultKind::encoder_jump, .at = 10.0, .jump = 0.5},
+  const std::vector<Fault> faults = {{.kind = FaultKind::bad_observation, .at = 5.0, .to = {}},
+                                     {.kind = FaultKind::outlier, .at = 8.0, .size = 30.0, .to = {}},
+                                     {.kind = FaultKind::encoder_jump, .at = 10.0, .jump = 0.5, .to = {}},
                                      kidnapping()};
   const std::string first = run_live(world_with(faults), folder / "a").summary.trajectory_hash;
   EXPECT_EQ(run_live(world_with(faults), folder / "b").summary.trajectory_hash, first);
