@@ -65,8 +65,8 @@ std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
     if (!log.known_association && filter->needs_names())
       throw BadInput(fmt::format(
           "{}: the observations of {} do not say which landmark they are of, and this estimator needs that; "
-          "ekf and seif do not with --set estimators.{}.association=joint",
-          choice.name, log.name, choice.name));
+          "those of type ekf and seif do not, with the option association: joint",
+          choice.name, log.name));
     estimators.push_back(
         {choice.name, std::move(filter), choice.odometry_sd_factor, choice.observation_sd_factor, {}});
   }
@@ -230,28 +230,17 @@ const TrueLandmark* LiveLoop::true_landmark(seif::LandmarkId id) const {
   return it != log_.landmarks->end() && it->landmark == id ? &*it : nullptr;
 }
 
-/// The names that the world has for the landmarks of a map.
-std::vector<seif::LandmarkId> LiveLoop::true_ids_of(std::size_t index,
-                                                    std::span<const seif::LandmarkEstimate> map) const {
-  std::vector<seif::LandmarkId> ids;
-  for (const seif::LandmarkEstimate& landmark : map) {
-    const bool is_named = believers_.estimators[index].filter->needs_names();
-    ids.push_back(is_named ? landmark.landmark : true_names_[index].of(landmark.landmark));
-  }
-  return ids;
-}
-
 ConsistencyRecord LiveLoop::consistency_of(std::size_t index) const {
   const LiveEstimator& estimator = believers_.estimators[index];
   const std::vector<seif::LandmarkEstimate> map = estimator.filter->map();
   std::vector<seif::LandmarkId> ids;
   std::vector<Eigen::Vector2d> errors;
-  const std::vector<seif::LandmarkId> true_ids = true_ids_of(index, map);
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const TrueLandmark* truth = true_landmark(true_ids[i]);
+  for (const seif::LandmarkEstimate& landmark : map) {
+    const TrueLandmark* truth =
+        true_landmark(true_id_of(*estimator.filter, true_names_[index], landmark.landmark));
     if (truth == nullptr) continue;
-    ids.push_back(map[i].landmark);
-    errors.push_back(map[i].mean - truth->position);
+    ids.push_back(landmark.landmark);
+    errors.push_back(landmark.mean - truth->position);
   }
   std::vector<seif::LandmarkId> sampled_ids;
   std::vector<Eigen::Vector2d> sampled_errors;

@@ -88,8 +88,6 @@ class LiveLoop {
   void motion_update(std::size_t index, const seif::Odometry& odometry);
   void measurement_update(std::size_t index, const ScanEvent& event);
   const seif::Scan& scaled(const seif::Scan& scan, double sd_factor);
-  std::vector<seif::LandmarkId> true_ids_of(std::size_t index,
-                                            std::span<const seif::LandmarkEstimate> map) const;
   ConsistencyRecord consistency_of(std::size_t index) const;
   const TrueLandmark* true_landmark(seif::LandmarkId id) const;
   void tell_map(std::size_t index);

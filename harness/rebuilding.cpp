@@ -103,8 +103,7 @@ std::vector<std::pair<seif::LandmarkId, PointPair>> RebuiltConsistency::sample_o
   const seif::Estimator& filter = *believers_.estimators[index].filter;
   std::vector<std::pair<seif::LandmarkId, PointPair>> known;
   for (const seif::LandmarkEstimate& landmark : filter.map()) {
-    const seif::LandmarkId id =
-        filter.needs_names() ? landmark.landmark : true_names_[index].of(landmark.landmark);
+    const seif::LandmarkId id = true_id_of(filter, true_names_[index], landmark.landmark);
     const auto truth = std::ranges::lower_bound(*log_.landmarks, id, {}, &TrueLandmark::landmark);
     if (truth != log_.landmarks->end() && truth->landmark == id)
       known.push_back({landmark.landmark, {landmark.mean, truth->position}});

@@ -29,9 +29,8 @@ struct EstimatorScore {
   std::optional<double> improper_t;           // [s] the first of them
   std::optional<double> diverged_t;           // [s] when the test of innovations first fired
   std::optional<double> worst_nis;            // [-] the largest over a window of scans
-  std::optional<double>
-      diverged_nees_t;  // [s] the first scoring time with a NEES of the pose that is too high
-  std::optional<Percentiles> update_us;                          // [us]
+  std::optional<double> diverged_nees_t;      // [s] the first scoring time with too high a NEES of the pose
+  std::optional<Percentiles> update_us;       // [us]
   std::array<std::optional<Percentiles>, stage_count> stage_us;  // [us]
   std::optional<Percentiles> blocks_touched;                     // [-] by an update
   std::optional<std::int64_t> links;                             // [-] after the last update

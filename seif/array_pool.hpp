@@ -70,7 +70,7 @@ class ArrayPool {
   std::size_t memory_bytes() const { return bytes_; }
 
  private:
-  /// Arrays of one capacity. These grow by an eighth to a quarter from shelf to shelf.
+  /// Arrays of one capacity. From shelf to shelf it grows by a seventh to a quarter.
   struct Shelf {
     std::vector<std::unique_ptr<double[]>> free;
     std::size_t made = 0;

@@ -300,9 +300,9 @@ std::size_t AssociatingFilter::memory_bytes() const {
 
 void AssociatingFilter::landmarks(std::span<const LandmarkId> landmarks,
                                   std::vector<LandmarkEstimate>& out) const {
-  std::vector<LandmarkId> known(landmarks.begin(), landmarks.end());
-  std::erase_if(known, [&](LandmarkId id) { return !is_in_map(id); });
-  filter_->landmarks(known, out);
+  looked_up_.assign(landmarks.begin(), landmarks.end());
+  std::erase_if(looked_up_, [&](LandmarkId id) { return !is_in_map(id); });
+  filter_->landmarks(looked_up_, out);
 }
 
 void AssociatingFilter::couplings(LandmarkId of, std::vector<Coupling>& out) const {

@@ -133,6 +133,7 @@ class AssociatingFilter final : public Estimator {
   std::vector<Seen> seen_;   // by observation
   std::int64_t blocks_touched_ = 0;
   Eigen::MatrixXd Sigma_;  // of [pose | asked_], with room to grow
+  mutable std::vector<LandmarkId> looked_up_;
 };
 
 }  // namespace seif

@@ -91,6 +91,8 @@ struct CondensationPlan {
   std::vector<int> order;            // the same, each after those that it depends on
   std::int64_t most_blocks = 0;      // [-] that one update makes ready; 0: all
   std::size_t ready = 0;             // [-] of these
+  std::int64_t worked = 0;           // [-] blocks, in this update
+  bool has_told = false;             // whether its messages hold the residuals from where the means are
   std::vector<int> begun;            // nodes whose groups are
   std::deque<SentMessage> messages;  // by that order, as far as ready
   std::vector<int> new_leaves;       // that have come since, and stand beside the tree

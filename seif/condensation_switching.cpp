@@ -1,21 +1,37 @@
-// The zone moves: the messages of a plan take the places of those before, and tell of the residual from where
-// the means are now.
+// The zone moves: the messages of a plan take the places of those before, once they tell of the residual from
+// where the means are. That is the work of an update's end; the zone moves as the next one begins, with the
+// landmarks' means as they were left.
 #include <algorithm>
 
 #include "seif/condensation_tree.hpp"
 
 namespace seif {
 
-bool CondensationTree::move_zone(InformationState& state) {
+void CondensationTree::end_update(const InformationState& state) {
+  const bool is_ready = plan_.is_running && plan_.ready == plan_.order.size();
+  const bool has_time = 4 * plan_.worked <= plan_.most_blocks;
+  if (is_ready && has_time && !plan_.has_told) tell_residuals(state);
+}
+
+/// What the messages of the plan hold of the residual, where all means are now. Once only: it takes what is
+/// loose.
+void CondensationTree::tell_residuals(const InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
   note_zone_residual(state);
   for (const int at : plan_.stale) {
     if (tree_.is_leaf(at) && !node(at).hot) loosen(state, at);
   }
-  switch_leaves();
   for (const int g : plan_.begun) node(g).group.read = node(g).group.mean;
-  for (const int at : plan_.order) replace(state, at);
+  for (const int at : plan_.order) tell_residual(state, at);
+  plan_.has_told = true;
+}
+
+bool CondensationTree::move_zone(InformationState& state) {
+  if (!plan_.has_told) tell_residuals(state);
+  switch_leaves();
+  for (const int at : plan_.order) replace(at);
   plan_.is_running = false;
+  plan_.has_told = false;
   const bool done = fill_zone(state);
   for (const int leaf : plan_.new_leaves) attach(leaf);
   plan_.new_leaves.clear();
@@ -128,19 +144,10 @@ void CondensationTree::switch_leaves() {
   tree_.move_hub();
 }
 
-/// A node's message by the planned one, after those that it depends on.
-void CondensationTree::replace(const InformationState& state, int at) {
-  SentMessage& planned = plan_.messages[static_cast<std::size_t>(node(at).planned)];
-  forget(node(at).sent);
-  SentMessage& now = at == tree_.hub() ? to_zone_ : node(at).sent;
-  forget(now);
-  now.take(planned);
-  Condensed& message = now.message;
-  for (const FrontVariable v : message.eliminated) settle(v, at);
-  for (Condensed::Tie& tie : message.tied) {
-    settle(tie.variable, at);
-    as_read(tie.variable, tie.reference.data());
-  }
+/// A planned message, after those that it depends on.
+void CondensationTree::tell_residual(const InformationState& state, int at) {
+  Condensed& message = plan_.messages[static_cast<std::size_t>(node(at).planned)].message;
+  for (Condensed::Tie& tie : message.tied) as_read(tie.variable, tie.reference.data());
   message.reference.resize(static_cast<std::size_t>(message.b));
   double* reference = message.reference.data();
   for (const Condensed::Member& m : message.boundary) {
@@ -148,6 +155,16 @@ void CondensationTree::replace(const InformationState& state, int at) {
     reference += freedom(m.variable);
   }
   condense_residual(state, at, message);
+}
+
+/// A node's message by the planned one.
+void CondensationTree::replace(int at) {
+  forget(node(at).sent);
+  SentMessage& now = at == tree_.hub() ? to_zone_ : node(at).sent;
+  forget(now);
+  now.take(plan_.messages[static_cast<std::size_t>(node(at).planned)]);
+  for (const FrontVariable v : now.message.eliminated) settle(v, at);
+  for (const Condensed::Tie& tie : now.message.tied) settle(tie.variable, at);
 }
 
 void CondensationTree::forget(SentMessage& sent) {
@@ -169,16 +186,8 @@ void CondensationTree::settle(FrontVariable v, int at) {
 
 void CondensationTree::condense_residual(const InformationState& state, int at, Condensed& message) {
   front_.begin_residual(message);
-  const auto add_part = [&](int source) {
-    const Condensed& part = sent(source).message;
-    if (is_stale(source)) {  // and by now replaced: it has told of the residual where the means are
-      front_.add_residual(part, Eigen::Map<const Eigen::VectorXd>(part.s.data(), part.b));
-    } else {
-      front_.add_residual(part, residual_of(state, source));
-    }
-  };
-  if (!sent(at).is_bare) for_each_part(at, add_part);
-  const bool is_hub = tree_.towards(at) == none;
+  if (!next_of(at).is_bare) add_part_residuals(state, at);
+  const bool is_hub = tree_.planned_towards(at) == none;
   if (is_hub || tree_.is_leaf(at)) {
     const auto add_loose = [&](FrontVariable v) {
       if (is_group(v)) return;
@@ -190,6 +199,21 @@ void CondensationTree::condense_residual(const InformationState& state, int at, 
     for (const Condensed::Tie& tie : message.tied) add_loose(tie.variable);
   }
   front_.condense_residual(message);
+}
+
+/// What comes to a node that condenses, through bare ones or not.
+void CondensationTree::add_part_residuals(const InformationState& state, int at) {
+  tree_.for_each_planned_source(at, [&](int source) {
+    const SentMessage& part = next_of(source);
+    if (part.is_bare && !tree_.is_leaf(source)) {
+      add_part_residuals(state, source);
+    } else if (is_stale(source)) {  // it has told of the residual where the means are
+      const Condensed& m = part.message;
+      front_.add_residual(m, Eigen::Map<const Eigen::VectorXd>(m.s.data(), m.b));
+    } else {
+      front_.add_residual(part.message, residual_of(state, source));
+    }
+  });
 }
 
 /// What has come to the hub, and what the hot leaves have among themselves; those that are not active are

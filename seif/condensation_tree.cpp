@@ -98,14 +98,14 @@ bool CondensationTree::is_ready(int slot) const {
   return place(slot).hot != none && node(place(slot).leaf).next_hot;
 }
 
-/// The zone moves in an update of its own, unless little was left to do.
+/// The zone moves once the messages are ready and have told their residuals.
 bool CondensationTree::work_on_plan(InformationState& state) {
+  if (plan_.has_told) return move_zone(state);
   const std::int64_t before = blocks_touched_;
   if (!make_ready(state, plan_.most_blocks)) return false;
-  if (plan_.ready < plan_.order.size()) return true;
+  plan_.worked = blocks_touched_ - before;
   const bool is_all_at_once = options_.most_blocks == 0;
-  const bool has_time = 4 * (blocks_touched_ - before) <= plan_.most_blocks;
-  return !(is_all_at_once || has_time) || move_zone(state);
+  return !is_all_at_once || move_zone(state);
 }
 
 bool CondensationTree::solve_all(InformationState& state) {
@@ -179,8 +179,8 @@ void CondensationTree::covariance(const InformationState& state, std::span<const
   const int w = state.window_size();
   const auto n = static_cast<Eigen::Index>(3 + 2 * slots.size());
   if (by_factor_.rows() < w || by_factor_.cols() < n) {
-    constexpr Eigen::Index room =
-        128;  // mostly enough, so that it does not come to grow when the map is long known
+    // Mostly enough, so that it does not come to grow when the map is long known.
+    constexpr Eigen::Index room = 128;
     by_factor_.resize(std::max({room, Eigen::Index{2} * w, by_factor_.rows()}),
                       std::max({room, 2 * n, by_factor_.cols()}));
   }

@@ -42,8 +42,8 @@ struct CondensationOptions {
   int most_blocks = 5'000;
   // In multiples of how far the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
-  double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
-  double zone_ahead = 1.25;   // and those so near are taken into the next one
+  double look_ahead = 1.2;    // leaves so near to it are wanted in the zone,
+  double zone_ahead = 1.4;    // and those so near are taken into the next one
 };
 
 /// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
@@ -72,6 +72,10 @@ class CondensationTree {
 
   /// After these have been dropped from the window.
   [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
+
+  /// After the last solve_window() of an update. Until the next activate() no mean of a landmark may change,
+  /// but by rounding.
+  void end_update(const InformationState& state);
 
   /// p_world_landmark, in O(log N). [m]
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
@@ -102,7 +106,7 @@ class CondensationTree {
  private:
   static constexpr int none = -1;
   static constexpr int most_bare = 8;    // [-] leaves below a node that condenses nothing
-  static constexpr int most_slices = 4;  // [-] of a plan that is large
+  static constexpr int most_slices = 8;  // [-] of a plan that is large
   using Place = CondensedLandmark;
   using Node = CondensationNode;
   Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
@@ -175,14 +179,17 @@ class CondensationTree {
   int node_of(FrontVariable v) const;
 
   // Switching.
+  void tell_residuals(const InformationState& state);
   bool move_zone(InformationState& state);
   void note_zone_residual(const InformationState& state);
   void take_from_loose(const InformationState& state);
   void loosen(const InformationState& state, int leaf);
   void switch_leaves();
-  void replace(const InformationState& state, int at);
+  void tell_residual(const InformationState& state, int at);
+  void replace(int at);
   void settle(FrontVariable v, int at);
   void condense_residual(const InformationState& state, int at, Condensed& message);
+  void add_part_residuals(const InformationState& state, int at);
   void forget(SentMessage& sent);
   bool fill_zone(InformationState& state);
   void take_into_zone(int slot, int h);

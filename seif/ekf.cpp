@@ -56,7 +56,7 @@ void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
         Linearised linearised{
             .row = row, .v = innovation(*observation, predicted.z), .J = {}, .Q = observation->covariance};
         linearised.J << predicted.J_wrt_pose, predicted.J_wrt_landmark;
-        if (!is_gated(linearised)) known_.push_back(linearised);
+        if (admit(linearised)) known_.push_back(linearised);
       } else if (std::ranges::find(unknown_, observation->landmark, &Observation::landmark) ==
                  unknown_.end()) {
         unknown_.push_back(observation);
@@ -82,19 +82,19 @@ double Ekf::squared_mahalanobis(const Linearised& linearised) const {
   return linearised.v.dot(S.inverse() * linearised.v);
 }
 
-/// Whether what was seen is too far from what was expected; what is far from it, but not so far, is weakened.
-/// Counts both.
-bool Ekf::is_gated(Linearised& linearised) {
-  if (options_.gate <= 0.0 && options_.robust_above <= 0.0) return false;
+/// False if what was seen is too far from what was expected; what is far from it, but not so far, is
+/// weakened. Counts both.
+bool Ekf::admit(Linearised& linearised) {
+  if (options_.gate <= 0.0 && options_.robust_above <= 0.0) return true;
   const double squared = squared_mahalanobis(linearised);
   if (options_.gate > 0.0 && squared > options_.gate) {
     ++gated_;
-    return true;
+    return false;
   }
   const double times = times_above(squared, options_.robust_above);
   linearised.Q *= times;
   if (times > 1.0) ++weakened_;
-  return false;
+  return true;
 }
 
 /// Copies the full columns [row, row + Width) of Sigma to columns_ from column `to`; what lies above the

@@ -68,7 +68,7 @@ class Ekf final : public AssociableFilter {
   int landmark_count() const { return static_cast<int>(ids_.size()); }
   int size() const { return 3 + 2 * landmark_count(); }
   double squared_mahalanobis(const Linearised& linearised) const;
-  bool is_gated(Linearised& linearised);
+  bool admit(Linearised& linearised);
   static int row_of(int slot) { return 3 + 2 * slot; }
   void set_pose(const Pose2& pose);
   template <int Width>

@@ -134,14 +134,31 @@ void Front::find_targets(const Condensed& part) {
   for (const Condensed::Member& m : part.boundary) add_targets(m.variable);
 }
 
-// The matrix.
+// The matrix: the columns of E in full, as the factor will stand in the message, and those of B among
+// themselves. Parts come in whichever triangle it may be; fold() brings them to the lower one.
 
-void Front::add_entry(int i, int j, double value) { M_(std::max(i, j), std::min(i, j)) += value; }
+void Front::clear_matrix(Condensed& out) {
+  e_ = out.e;
+  size_ = out.e + out.b;
+  out.factor = pool_->take(static_cast<std::size_t>(size_) * static_cast<std::size_t>(e_));
+  std::fill_n(out.factor.data(), out.factor.size(), 0.0);
+  of_E_ = out.factor.data();
+  const Eigen::Index entries = Eigen::Index{out.b} * out.b;
+  if (of_B_.size() < entries) of_B_.resize(2 * entries);
+  of_B_.head(entries).setZero();
+}
 
-/// Of P' A P, what one entry of A and its mirror image add to the lower triangle.
+/// Of a pair of rows.
+double& Front::entry(int i, int j) {
+  const auto row = static_cast<std::ptrdiff_t>(std::max(i, j));
+  const auto col = static_cast<std::ptrdiff_t>(std::min(i, j));
+  return col < e_ ? of_E_[col * size_ + row] : of_B_(col_of_B(col) + row - e_);
+}
+
+/// Of P' A P, what one entry of A and its mirror image add.
 void Front::add_product(const Target& i, const Target& j, double value, bool diagonal) {
   const auto add = [&](int row_i, int row_j, double term) {
-    add_entry(row_i, row_j, row_i == row_j && !diagonal ? 2.0 * term : term);
+    entry(row_i, row_j) += row_i == row_j && !diagonal ? 2.0 * term : term;
   };
   add(i.row, j.row, value);
   if (i.second >= 0) add(i.second, j.row, i.weight * value);
@@ -149,53 +166,132 @@ void Front::add_product(const Target& i, const Target& j, double value, bool dia
   if (i.second >= 0 && j.second >= 0) add(i.second, j.second, i.weight * j.weight * value);
 }
 
-void Front::assemble(const Condensed& out) {
-  give_rows(out);
-  if (M_.rows() < size_) M_.resize(2 * size_, 2 * size_);
-  for (Eigen::Index col = 0; col < size_; ++col) M_.col(col).segment(col, size_ - col).setZero();
-  for (const Block& block : blocks_) {
-    targets_.clear();
-    add_targets(block.i);
-    add_targets(block.j);
-    const bool diagonal = block.i == block.j;
-    for (int a = 0; a < 2; ++a) {
-      for (int b = 0; b < (diagonal ? a + 1 : 2); ++b) {
-        add_product(targets_[static_cast<std::size_t>(a)], targets_[static_cast<std::size_t>(2 + b)],
-                    block.Omega_ij(a, b), diagonal && a == b);
+void Front::add_block(const Block& block) {
+  targets_.clear();
+  any_tied_ = false;
+  add_targets(block.i);
+  add_targets(block.j);
+  const bool diagonal = block.i == block.j;
+  for (std::size_t a = 0; a < 2; ++a) {
+    for (std::size_t b = 0; b < (diagonal ? a + 1 : 2); ++b) {
+      const double value = block.Omega_ij(static_cast<int>(a), static_cast<int>(b));
+      if (any_tied_) {
+        add_product(targets_[a], targets_[2 + b], value, diagonal && a == b);
+      } else {
+        entry(targets_[a].row, targets_[2 + b].row) += value;
       }
-    }
-  }
-  for (const Condensed* part : parts_) {
-    find_targets(*part);
-    if (any_tied_) {
-      add_tied(*part);
-      continue;
-    }
-    const double* S = part->S.data();
-    for (std::size_t j = 0; j < targets_.size(); ++j) {
-      for (std::size_t i = j; i < targets_.size(); ++i) add_entry(targets_[i].row, targets_[j].row, *S++);
     }
   }
 }
 
-/// P' S P, column by column of S. Adds to the upper triangle too, which nobody reads.
-void Front::add_tied(const Condensed& part) {
-  if (part_.rows() < part.b) part_.resize(2 * part.b, 2 * part.b);
-  if (r_.size() < size_) r_.resize(2 * size_);
-  const double* S = part.S.data();
-  for (Eigen::Index col = 0; col < part.b; ++col) {
-    const Eigen::Map<const Eigen::VectorXd> below(S, part.b - col);
-    part_.col(col).segment(col, part.b - col) = below;
-    part_.row(col).segment(col, part.b - col) = below;
-    S += part.b - col;
+void Front::assemble(Condensed& out) {
+  give_rows(out);
+  clear_matrix(out);
+  for (const Block& block : blocks_) add_block(block);
+  for (const Condensed* part : parts_) {
+    find_targets(*part);
+    if (any_tied_) {
+      add_tied(*part);
+    } else {
+      add_untied(*part);
+    }
   }
-  auto column = r_.head(size_);
+  fold(of_E_, size_, e_);
+  fold(of_B_.data(), out.b, out.b);
+}
+
+void Front::add_untied(const Condensed& part) {
+  const double* S = part.S.data();
+  for (std::size_t j = 0; j < targets_.size(); ++j) {
+    const std::ptrdiff_t col = targets_[j].row;
+    if (col < e_) {
+      double* const column = of_E_ + col * size_;
+      for (std::size_t i = j; i < targets_.size(); ++i) column[targets_[i].row] += *S++;
+      continue;
+    }
+    double* const column = of_B_.data() + col_of_B(col);
+    for (std::size_t i = j; i < targets_.size(); ++i) {
+      const std::ptrdiff_t row = targets_[i].row;
+      (row < e_ ? of_E_[row * size_ + col] : column[row - e_]) += *S++;
+    }
+  }
+}
+
+/// What stands in the upper triangle of a square (n x n) goes to the lower one.
+void Front::fold(double* square, Eigen::Index stride, Eigen::Index n) {
+  constexpr Eigen::Index tile = 8;
+  Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>> M(square, n, n, Eigen::OuterStride<>(stride));
+  const Eigen::Index whole = n - n % tile;
+  for (Eigen::Index col = 0; col < whole; col += tile) {
+    for (Eigen::Index row = col + tile; row < whole; row += tile)
+      M.block<tile, tile>(row, col) += M.block<tile, tile>(col, row).transpose();
+    for (Eigen::Index j = col; j < col + tile; ++j) {
+      for (Eigen::Index i = j + 1; i < col + tile; ++i) M(i, j) += M(j, i);
+    }
+  }
+  for (Eigen::Index i = whole; i < n; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) M(i, j) += M(j, i);
+  }
+}
+
+/// P' S P. With S = H + H', H its lower triangle with half the diagonal, that is K + K', K' = (H P)' P: sums
+/// of whole columns, twice, as long as the list of rows that the part moves.
+void Front::add_tied(const Condensed& part) {
+  list_moved_rows();
+  const auto n = static_cast<Eigen::Index>(moved_rows_.size());
+  const Eigen::Index room = n * std::max<Eigen::Index>(part.b, n);
+  if (half_.size() < room) {
+    half_.resize(2 * room);
+    transposed_.resize(2 * room);
+  }
+  Eigen::Map<Eigen::MatrixXd> HP(half_.data(), part.b, n);
+  HP.setZero();
+  const double* S = part.S.data();
   for (Eigen::Index j = 0; j < part.b; ++j) {
-    column.setZero();
-    for (Eigen::Index i = 0; i < part.b; ++i) add_to_rows(targets_[static_cast<std::size_t>(i)], part_(i, j));
+    const Eigen::Map<const Eigen::VectorXd> below(S, part.b - j);
+    const auto add_column = [&](int row, double weight) {
+      auto column = HP.col(column_of_row_[static_cast<std::size_t>(row)]).tail(part.b - j);
+      column(0) -= 0.5 * weight * below(0);
+      column += weight * below;
+    };
     const Target& target = targets_[static_cast<std::size_t>(j)];
-    M_.col(target.row).head(size_) += column;
-    if (target.second >= 0) M_.col(target.second).head(size_) += target.weight * column;
+    add_column(target.row, 1.0);
+    if (target.second >= 0) add_column(target.second, target.weight);
+    S += part.b - j;
+  }
+  Eigen::Map<Eigen::MatrixXd> transposed(transposed_.data(), n, part.b);
+  transposed = HP.transpose();
+  Eigen::Map<Eigen::MatrixXd> K(half_.data(), n, n);  // H P is done with
+  K.setZero();
+  for (Eigen::Index i = 0; i < part.b; ++i) {
+    const auto add_column = [&](int row, double weight) {
+      K.col(column_of_row_[static_cast<std::size_t>(row)]) += weight * transposed.col(i);
+    };
+    const Target& target = targets_[static_cast<std::size_t>(i)];
+    add_column(target.row, 1.0);
+    if (target.second >= 0) add_column(target.second, target.weight);
+  }
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = j; i < n; ++i) {
+      entry(moved_rows_[static_cast<std::size_t>(i)], moved_rows_[static_cast<std::size_t>(j)]) +=
+          i == j ? 2.0 * K(i, i) : K(i, j) + K(j, i);
+    }
+  }
+}
+
+/// The rows of the front that the part's go to, each once, and by them the place in that list.
+void Front::list_moved_rows() {
+  moved_rows_.clear();
+  column_of_row_.assign(static_cast<std::size_t>(size_), -1);
+  const auto list = [&](int row) {
+    int& column = column_of_row_[static_cast<std::size_t>(row)];
+    if (column >= 0) return;
+    column = static_cast<int>(moved_rows_.size());
+    moved_rows_.push_back(row);
+  };
+  for (const Target& target : targets_) {
+    list(target.row);
+    if (target.second >= 0) list(target.second);
   }
 }
 
@@ -204,20 +300,29 @@ void Front::add_to_rows(const Target& target, double value) {
   if (target.second >= 0) r_(target.second) += target.weight * value;
 }
 
-/// Cholesky of the first e of n columns, some at a time: so few that Eigen's products need no memory of the
-/// heap.
-bool Front::eliminate(Eigen::Index e, Eigen::Index n) {
+/// Cholesky of the columns of E, some at a time: so few that Eigen's products need no memory of the heap.
+bool Front::eliminate(Eigen::Index b) {
   constexpr Eigen::Index most_columns = 48;
+  const Eigen::Index e = e_;
+  const Eigen::Index n = e + b;
+  Eigen::Map<Eigen::MatrixXd> left(of_E_, n, e);
+  Eigen::Map<Eigen::MatrixXd> rest(of_B_.data(), b, b);
   for (Eigen::Index from = 0; from < e; from += most_columns) {
     const Eigen::Index columns = std::min(most_columns, e - from);
     const Eigen::Index next = from + columns;
-    auto block = M_.block(from, from, columns, columns);
+    auto block = left.block(from, from, columns, columns);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(block);
     if (llt.info() != Eigen::Success) return false;
     if (next == n) continue;
-    auto below = M_.block(next, from, n - next, columns);
+    auto below = left.block(next, from, n - next, columns);
     llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(below);
-    M_.block(next, next, n - next, n - next).selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
+    if (next < e) {
+      left.block(next, next, e - next, e - next)
+          .selfadjointView<Eigen::Lower>()
+          .rankUpdate(below.topRows(e - next), -1.0);
+      left.block(e, next, b, e - next).noalias() -= below.bottomRows(b) * below.topRows(e - next).transpose();
+    }
+    if (b > 0) rest.selfadjointView<Eigen::Lower>().rankUpdate(below.bottomRows(b), -1.0);
   }
   return true;
 }
@@ -233,16 +338,11 @@ bool Front::factorise(Condensed& out) {
     }
   }
   assemble(out);
-  const Eigen::Index e = out.e;
   const Eigen::Index b = out.b;
-  const Eigen::Index n = e + b;
-  if (!eliminate(e, n)) return false;
-  out.factor = pool_->take(static_cast<std::size_t>(n * e));
-  double* to = out.factor.data();
-  for (Eigen::Index col = 0; col < e; ++col) to = std::copy_n(&M_(0, col), n, to);
+  if (!eliminate(b)) return false;
   out.S = pool_->take(static_cast<std::size_t>(b * (b + 1) / 2));
-  to = out.S.data();
-  for (Eigen::Index col = 0; col < b; ++col) to = std::copy_n(&M_(e + col, e + col), b - col, to);
+  double* to = out.S.data();
+  for (Eigen::Index col = 0; col < b; ++col) to = std::copy_n(&of_B_(col * b + col), b - col, to);
   return true;
 }
 
@@ -280,7 +380,7 @@ void Front::condense_residual(Condensed& front) {
 std::size_t Front::memory_bytes() const {
   return pool_->memory_bytes() + landmarks_.memory_bytes() + groups_.memory_bytes() +
          variables_.capacity() * sizeof(Variable) + blocks_.capacity() * sizeof(Block) +
-         static_cast<std::size_t>(M_.size()) * sizeof(double);
+         static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size()) * sizeof(double);
 }
 
 }  // namespace seif

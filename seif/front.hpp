@@ -150,12 +150,18 @@ class Front {
   void give_rows(const Condensed& front);
   void add_targets(FrontVariable v);
   void find_targets(const Condensed& part);
-  void add_entry(int i, int j, double value);
+  void clear_matrix(Condensed& out);
+  std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
+  double& entry(int i, int j);
   void add_product(const Target& i, const Target& j, double value, bool diagonal);
+  void add_block(const Block& block);
+  void add_untied(const Condensed& part);
   void add_tied(const Condensed& part);
+  void list_moved_rows();
   void add_to_rows(const Target& target, double value);
-  void assemble(const Condensed& out);
-  bool eliminate(Eigen::Index e, Eigen::Index n);
+  void assemble(Condensed& out);
+  static void fold(double* square, Eigen::Index stride, Eigen::Index n);
+  bool eliminate(Eigen::Index b);
   bool factorise(Condensed& out);
 
   std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
@@ -167,8 +173,11 @@ class Front {
   std::vector<const Condensed*> parts_;
   std::vector<Target> targets_;  // of the rows of one part
   bool any_tied_ = false;        // among them
-  Eigen::MatrixXd M_;            // lower triangle, with room to grow, as all below
-  Eigen::MatrixXd part_;
+  std::vector<int> moved_rows_, column_of_row_;
+  int e_ = 0;               // rows of E
+  double* of_E_ = nullptr;  // (n x e) columns of the matrix: in the message that is being made
+  Eigen::VectorXd of_B_;    // (b x b), with room to grow, as all below
+  Eigen::VectorXd half_, transposed_;
   Eigen::VectorXd r_;
 };
 

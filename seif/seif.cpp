@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "seif/couplings.hpp"
@@ -38,7 +39,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (!by_tree_) mean_.before_information(state_);
   add_known(scan);
   solve_window(scan.t);
-  note_innovation();
+  if (by_tree_) note_innovation();
   relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
   if (!by_tree_) mean_.after_information(state_);
@@ -84,16 +85,12 @@ void Seif::add_equal(double t) {
     Eigen::Matrix<double, 2, 7> J;  // wrt [x y theta a b]
     J << Eigen::Matrix2d::Zero(), Eigen::Vector2d(lever.y(), -lever.x()), Eigen::Matrix2d::Identity(),
         -Eigen::Matrix2d::Identity();
-    const int rows[] = {0, 1,
-                        2, InformationState::row_of(state_.position(a)),
-                        0, InformationState::row_of(state_.position(b)),
-                        0};
-    const auto row = [&](int i) { return i == 4 || i == 6 ? rows[i - 1] + 1 : rows[i]; };
+    const int row_a = InformationState::row_of(state_.position(a));
+    const int row_b = InformationState::row_of(state_.position(b));
+    const std::array rows{0, 1, 2, row_a, row_a + 1, row_b, row_b + 1};
     constexpr double weight = 1.0 / (equal_sd * equal_sd);
-    for (int i = 0; i < 7; ++i) {
-      for (int j = 0; j < 7; ++j) state_.Omega()(row(i), row(j)) += weight * J.col(i).dot(J.col(j));
-      state_.r()(row(i)) -= weight * J.col(i).dot(apart);
-    }
+    state_.Omega()(rows, rows) += weight * (J.transpose() * J);
+    state_.r()(rows) -= weight * (J.transpose() * apart);
     state_.touch(6);
   }
   equal_.clear();
@@ -233,7 +230,10 @@ void Seif::sparsify(double t) {
 /// With the tree the local solution is that of all. With the exact mean the groups never move, and stay out
 /// of the way.
 void Seif::recover_mean(double t) {
-  if (by_tree_) return solve_window(t);
+  if (by_tree_) {
+    solve_window(t);
+    return tree_.end_update(state_);
+  }
   if (!(options_.mean_recovery == SeifMean::exact ? solve_mean(state_) : mean_.correct(state_))) {
     throw NumericalFailure("mean recovery", t);
   }
@@ -290,7 +290,7 @@ Counts Seif::counts() const {
                                : std::optional(mean_.residual()),
           .anchoring = anchoring_,
           .innovation = by_tree_ ? std::optional(innovation_) : std::nullopt,
-          .innovation_degrees = by_tree_ ? innovation_degrees_ : 0};
+          .innovation_degrees = innovation_degrees_};
 }
 
 void Seif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {

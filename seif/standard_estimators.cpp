@@ -84,8 +84,8 @@ const OptionSpec association{.key = "association",
                              .choices = {"known", "nearest", "joint"},
                              .help =
                                  "Which landmark is seen: as the observation says; each for itself the "
-                                 "nearest that is compatible; or the "
-                                 "most that are compatible together, whatever the observations say."};
+                                 "nearest that is compatible; or the most that are compatible together, "
+                                 "whatever the observations say."};
 const OptionSpec match_probability{.key = "match_probability",
                                    .fallback = AssociationOptions{}.match_probability,
                                    .min = 1e-12,
@@ -115,8 +115,7 @@ const OptionSpec remove_below{.key = "remove_below",
                               .max = 1.0,
                               .help =
                                   "With an association: a landmark that was seen in less than this share of "
-                                  "the scans that should have seen "
-                                  "it is taken out; 0: never [-]."};
+                                  "the scans that should have seen it is taken out; 0: never [-]."};
 
 std::vector<OptionSpec> with_association(std::vector<OptionSpec> options) {
   options.insert(options.end(),
@@ -217,8 +216,8 @@ EstimatorType seif() {
                                .max = 1'000'000'000,
                                .help =
                                    "With the tree: blocks that an update makes ready for the next zone, or a "
-                                   "quarter of what that takes; "
-                                   "0: all at once, and no observation has to wait [-]."};
+                                   "quarter of what that takes; 0: all at once, and no observation has to "
+                                   "wait [-]."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},

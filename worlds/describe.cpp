@@ -79,11 +79,9 @@ void describe_robot(Fields& fields, Robot& robot) {
 }
 
 void describe_physics(Fields& fields, Physics& physics) {
-  std::string engine = name_of(engine_names, physics.engine);
-  fields.choice("engine", engine, {engine_names.begin(), engine_names.end()},
-                "bullet: rigid bodies that touch and hide each other; kinematic, for many fast runs: exact "
-                "arcs, no slip, landmarks that are points, no obstacles or patches");
-  physics.engine = enum_of<Engine>(engine_names, engine);
+  describe_choice(fields, "engine", physics.engine, engine_names,
+                  "bullet: rigid bodies that touch and hide each other; kinematic, for many fast runs: exact "
+                  "arcs, no slip, landmarks that are points, no obstacles or patches");
   fields.integer("step_rate_hz", physics.step_rate, between(50, highest_step_rate), "physics steps");
   fields.number("friction", physics.friction, between(0, 10), "between wheels and ground");
   fields.list(
@@ -310,11 +308,9 @@ void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
                 "that a visible landmark is not reported");
   fields.number("false_detections_per_scan", sensor.false_detections, between(0, 1000),
                 "mean number (Poisson)");
-  std::string ids = name_of(landmark_ids_names, sensor.ids);
-  fields.choice(
-      "ids", ids, {landmark_ids_names.begin(), landmark_ids_names.end()},
+  describe_choice(
+      fields, "ids", sensor.ids, landmark_ids_names,
       "whether an observation tells which landmark it is of; hidden wants estimators with an association");
-  sensor.ids = enum_of<LandmarkIds>(landmark_ids_names, ids);
   fields.number("misread_probability", sensor.misread_probability, between(0, 1),
                 "that an observation bears another landmark's id");
 }
@@ -366,11 +362,10 @@ void describe_scoring(Fields& fields, Scoring& scoring) {
 }
 
 void describe_camera(Fields& fields, Film& film) {
-  std::string camera = name_of(camera_names, film.camera);
-  fields.choice("camera", camera, {camera_names.begin(), camera_names.end()},
-                "overview: the whole ground; chase: behind the robot; orbit: round the robot; top: straight "
-                "down on the robot; fixed: from eye_m to target_m");
-  film.camera = enum_of<FilmCamera>(camera_names, camera);
+  describe_choice(
+      fields, "camera", film.camera, camera_names,
+      "overview: the whole ground; chase: behind the robot; orbit: round the robot; top: straight "
+      "down on the robot; fixed: from eye_m to target_m");
   fields.vector3("eye_m", film.eye, coordinate(), "where the fixed camera is");
   fields.vector3("target_m", film.target, coordinate(), "what the fixed camera looks at");
   if (fields.sound() && film.camera == FilmCamera::fixed && film.eye == film.target) {

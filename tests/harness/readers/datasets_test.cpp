@@ -40,15 +40,19 @@ struct Replayed {
   DistanceFromReference seif_from_batch;
 };
 
-/// As `seifbed replay LOG`, and `seifbed score` with the reference. Time-consuming scores are taken at the
-/// end.
-Replayed replay_with(const LogChoice& log, const std::string& reference) {
-  const seif::Registry registry = known_estimators();
-  const TemporaryFolder folder;
+/// Those of `seifbed replay LOG`. Time-consuming scores are taken at the end.
+worlds::LoadResult settings_of(const LogChoice& log, const seif::Registry& registry) {
   ReplayChoices choices;
   choices.overrides = {"scoring.interval_s=1e6"};
   choices.defaults = default_settings(format_of(log));
-  const worlds::LoadResult settings = load_replay_settings(log.path, choices, registry);
+  return load_replay_settings(log.path, choices, registry);
+}
+
+/// As `seifbed replay LOG`, and `seifbed score` with the reference.
+Replayed replay_with(const LogChoice& log, const std::string& reference) {
+  const seif::Registry registry = known_estimators();
+  const TemporaryFolder folder;
+  const worlds::LoadResult settings = settings_of(log, registry);
   PreparedRun run = prepare_replay(log, settings.world.value(), registry);
   run.plan.folder = folder.path();
   run.plan.quiet = true;
@@ -172,10 +176,7 @@ TEST_F(VictoriaParkTrees, TreesWithoutNamesMakeAMapThatFitsToGps) {
   const LogChoice log{.path = folder};
   const seif::Registry registry = known_estimators();
   const TemporaryFolder to;
-  ReplayChoices choices;
-  choices.overrides = {"scoring.interval_s=1e6"};
-  choices.defaults = default_settings(format_of(log));
-  const worlds::LoadResult settings = load_replay_settings(log.path, choices, registry);
+  const worlds::LoadResult settings = settings_of(log, registry);
   PreparedRun run = prepare_replay(log, settings.world.value(), registry);
   run.plan.folder = to.path();
   run.plan.quiet = true;
