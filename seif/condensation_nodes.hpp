@@ -45,8 +45,7 @@ struct LandmarkGroup {
 };
 
 /// What a node sends towards the hub; the hub's goes to the zone. A bare node lets through what comes to it;
-/// a bare leaf that is cold tells what it is about (boundary, s, reference), and its S are its blocks of
-/// Omega.
+/// a bare leaf that is cold sends its blocks of Omega as they are.
 struct SentMessage {
   Condensed message;
   bool is_bare = true;

@@ -21,64 +21,76 @@ bool CondensationTree::send(const InformationState& state, int from) {
   SentMessage& next = plan_.messages[plan_.ready];
   const bool is_hub = tree_.planned_towards(from) == none;
   next.is_bare = !is_hub && tree_.leaves(from) <= most_bare;
-  front_.begin();
   if (next.is_bare) {
-    if (tree_.is_leaf(from) && !node(from).next_hot) add_leaf_to_front(state, from);
+    next.message.clear();
+    if (tree_.is_leaf(from) && !node(from).next_hot) list_leaf(state, from, next.message);
     next.groups.clear();
     note_reach(from, next);
-    front_.list(next.message);
     return true;
   }
-  gather(state, from);
+  front_.begin();
+  gather(from);
   if (is_hub) {
-    for (const int leaf : plan_.hot_leaves) add_links_to_front(state, leaf);
+    list_links(state);
+    front_.add(links_);
   }
   return condense(state, from, next);
 }
 
 /// Brings to the front of a node what its sources send, or what comes through them.
-void CondensationTree::gather(const InformationState& state, int at) {
+void CondensationTree::gather(int at) {
   tree_.for_each_planned_source(at, [&](int source) {
     const SentMessage& next = next_of(source);
-    if (!next.is_bare) {
+    if (next.is_bare && !tree_.is_leaf(source)) {
+      gather(source);
+    } else {
       front_.add(next.message);
-    } else if (!tree_.is_leaf(source)) {
-      gather(state, source);
-    } else if (!node(source).next_hot) {
-      add_leaf_to_front(state, source);
+      if (next.is_bare) blocks_touched_ += next.message.blocks();
     }
   });
 }
 
+/// The place of a landmark in the boundary of a part that is being listed.
+int CondensationTree::listed(Condensed& part, int slot, int balance) {
+  Place& p = place(slot);
+  if (p.visit != visit_) {
+    p.visit = visit_;
+    p.row = static_cast<int>(part.boundary.size());
+    part.boundary.push_back({slot, balance});
+    part.b += freedom(slot);
+  }
+  return p.row;
+}
+
 /// The blocks that a leaf owns.
-void CondensationTree::add_leaf_to_front(const InformationState& state, int leaf) {
+void CondensationTree::list_leaf(const InformationState& state, int leaf, Condensed& part) {
   ++visit_;
-  const auto mention = [&](int slot) {
-    if (place(slot).visit == visit_) return;
-    place(slot).visit = visit_;
-    front_.mention(slot, place(slot).leaf == leaf ? 1 - place(slot).leaves : 1);
+  const auto listed_at = [&](int slot) {
+    return listed(part, slot, place(slot).leaf == leaf ? 1 - place(slot).leaves : 1);
   };
   for_each_owned_block(state, leaf, [&](int slot, int other, const auto& Omega_so) {
     ++blocks_touched_;
-    mention(slot);
-    mention(other);
-    front_.add(slot, other, Omega_so);
+    const int i = listed_at(slot);
+    part.part.push_back({.i = i, .j = listed_at(other), .Omega_ij = Omega_so});
   });
 }
 
-/// Of the blocks that a hot leaf owns, those with cold landmarks: nothing else comes between these and the
+/// Of the blocks that hot leaves own, those with cold landmarks: nothing else comes between these and the
 /// zone.
-void CondensationTree::add_links_to_front(const InformationState& state, int leaf) {
-  for_each_landmark(leaf, [&](int slot) {
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      ++blocks_touched_;
-      const int leaf_of_other = place(other).leaf;
-      if (leaf_of_other < leaf || node(leaf_of_other).next_hot) return;
-      front_.mention(slot, 0);
-      front_.mention(other, 0);
-      front_.add(slot, other, Omega_so);
+void CondensationTree::list_links(const InformationState& state) {
+  ++visit_;
+  links_.clear();
+  for (const int leaf : plan_.hot_leaves) {
+    for_each_landmark(leaf, [&](int slot) {
+      state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+        ++blocks_touched_;
+        const int leaf_of_other = place(other).leaf;
+        if (leaf_of_other < leaf || node(leaf_of_other).next_hot) return;
+        const int i = listed(links_, slot, 0);
+        links_.part.push_back({.i = i, .j = listed(links_, other, 0), .Omega_ij = Omega_so});
+      });
     });
-  });
+  }
 }
 
 /// Whether all blocks of a variable are in the front of a node. At the hub those of all cold ones are.

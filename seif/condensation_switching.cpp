@@ -9,7 +9,7 @@ namespace seif {
 
 void CondensationTree::end_update(const InformationState& state) {
   const bool is_ready = plan_.is_running && plan_.ready == plan_.order.size();
-  const bool has_time = 4 * plan_.worked <= plan_.most_blocks;
+  const bool has_time = 2 * plan_.worked <= plan_.most_blocks;
   if (is_ready && has_time && !plan_.has_told) tell_residuals(state);
 }
 
@@ -19,10 +19,10 @@ void CondensationTree::tell_residuals(const InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
   note_zone_residual(state);
   for (const int at : plan_.stale) {
-    if (tree_.is_leaf(at) && !node(at).hot) loosen(state, at);
+    if (tree_.is_leaf(at) && !node(at).hot) loosen(at);
   }
   for (const int g : plan_.begun) node(g).group.read = node(g).group.mean;
-  for (const int at : plan_.order) tell_residual(state, at);
+  for (const int at : plan_.order) tell_residual(at);
   plan_.has_told = true;
 }
 
@@ -45,47 +45,23 @@ void CondensationTree::reserve_boundary(Eigen::Index rows) {
 }
 
 /// What the message of a node holds of the residual of its boundary, as that is now.
-Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const InformationState& state, int at) {
+Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(int at) {
   const Condensed& message = sent(at).message;
   reserve_boundary(message.b);
   auto d = part_step_.head(message.b);
   auto r = part_residual_.head(message.b);
   step_of(message, d);
   if (message.b == 0) return r;  // of a hot leaf, or a new one
-  if (sent(at).is_bare) {
-    residual_of_leaf(state, at, d, r);
-  } else {
-    message.residual(d, r);
-    blocks_touched_ += message.blocks();
-  }
+  message.residual(d, r);
+  blocks_touched_ += message.blocks();
   return r;
 }
 
-/// s - S d, with the blocks that the leaf owns for S.
-void CondensationTree::residual_of_leaf(const InformationState& state, int leaf,
-                                        const Eigen::Ref<const Eigen::VectorXd>& d,
-                                        Eigen::Ref<Eigen::VectorXd> r) {
-  const Condensed& message = sent(leaf).message;
-  r = Eigen::Map<const Eigen::VectorXd>(message.s.data(), message.b);
-  int row = 0;
-  for (const Condensed::Member& m : message.boundary) {
-    place(m.variable).row = row;
-    row += 2;
-  }
-  for_each_owned_block(state, leaf, [&](int i, int j, const auto& Omega_ij) {
-    const int row_i = place(i).row;
-    const int row_j = place(j).row;
-    ++blocks_touched_;
-    r.segment<2>(row_i) -= Omega_ij * d.segment<2>(row_j);
-    if (i != j) r.segment<2>(row_j) -= Omega_ij.transpose() * d.segment<2>(row_i);
-  });
-}
-
 /// What the messages to the hub hold of the residual of hot landmarks.
-void CondensationTree::take_from_loose(const InformationState& state) {
+void CondensationTree::take_from_loose() {
   for_each_part(tree_.hub(), [&](int source) {
     const Condensed& m = sent(source).message;
-    const auto r = residual_of(state, source);
+    const auto r = residual_of(source);
     Eigen::Index row = 0;
     for (const Condensed::Member& member : m.boundary) {
       const FrontVariable v = member.variable;
@@ -103,7 +79,7 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
     p.loose.setZero();
     if (position >= 0) p.loose = state.r().segment<2>(InformationState::row_of(position));
   }
-  take_from_loose(state);
+  take_from_loose();
   const Condensed& to_zone = sent(tree_.hub()).message;
   reserve_boundary(to_zone.b);
   auto d = part_step_.head(to_zone.b);
@@ -120,9 +96,9 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
 }
 
 /// A cold leaf whose message goes: what its message held of the residual.
-void CondensationTree::loosen(const InformationState& state, int leaf) {
+void CondensationTree::loosen(int leaf) {
   const Condensed& m = sent(leaf).message;
-  const auto r = residual_of(state, leaf);
+  const auto r = residual_of(leaf);
   Eigen::Index row = 0;
   for (const Condensed::Member& member : m.boundary) {
     place(member.variable).loose += r.segment<2>(row);
@@ -145,7 +121,7 @@ void CondensationTree::switch_leaves() {
 }
 
 /// A planned message, after those that it depends on.
-void CondensationTree::tell_residual(const InformationState& state, int at) {
+void CondensationTree::tell_residual(int at) {
   Condensed& message = plan_.messages[static_cast<std::size_t>(node(at).planned)].message;
   for (Condensed::Tie& tie : message.tied) as_read(tie.variable, tie.reference.data());
   message.reference.resize(static_cast<std::size_t>(message.b));
@@ -154,7 +130,7 @@ void CondensationTree::tell_residual(const InformationState& state, int at) {
     as_read(m.variable, reference);
     reference += freedom(m.variable);
   }
-  condense_residual(state, at, message);
+  condense_residual(at, message);
 }
 
 /// A node's message by the planned one.
@@ -184,9 +160,9 @@ void CondensationTree::settle(FrontVariable v, int at) {
   }
 }
 
-void CondensationTree::condense_residual(const InformationState& state, int at, Condensed& message) {
+void CondensationTree::condense_residual(int at, Condensed& message) {
   front_.begin_residual(message);
-  if (!next_of(at).is_bare) add_part_residuals(state, at);
+  if (!next_of(at).is_bare) add_part_residuals(at);
   const bool is_hub = tree_.planned_towards(at) == none;
   if (is_hub || tree_.is_leaf(at)) {
     const auto add_loose = [&](FrontVariable v) {
@@ -202,16 +178,16 @@ void CondensationTree::condense_residual(const InformationState& state, int at, 
 }
 
 /// What comes to a node that condenses, through bare ones or not.
-void CondensationTree::add_part_residuals(const InformationState& state, int at) {
+void CondensationTree::add_part_residuals(int at) {
   tree_.for_each_planned_source(at, [&](int source) {
     const SentMessage& part = next_of(source);
     if (part.is_bare && !tree_.is_leaf(source)) {
-      add_part_residuals(state, source);
+      add_part_residuals(source);
     } else if (is_stale(source)) {  // it has told of the residual where the means are
       const Condensed& m = part.message;
       front_.add_residual(m, Eigen::Map<const Eigen::VectorXd>(m.s.data(), m.b));
     } else {
-      front_.add_residual(part.message, residual_of(state, source));
+      front_.add_residual(part.message, residual_of(source));
     }
   });
 }

@@ -36,14 +36,14 @@ struct CondensationOptions {
   /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
   int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
-  /// [-] Blocks of messages that one update makes ready for the next zone, or a quarter of those that it
+  /// [-] Blocks of messages that one update makes ready for the next zone, or an eighth of those that it
   /// takes if that is more, and perhaps one message more. 0: all at once, as soon as a landmark is seen
   /// outside of the zone.
   int most_blocks = 5'000;
   // In multiples of how far the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
-  double look_ahead = 1.2;    // leaves so near to it are wanted in the zone,
-  double zone_ahead = 1.4;    // and those so near are taken into the next one
+  double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
+  double zone_ahead = 1.35;   // and those so near are taken into the next one
 };
 
 /// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
@@ -163,9 +163,10 @@ class CondensationTree {
   bool work_on_plan(InformationState& state);
   bool make_ready(const InformationState& state, std::int64_t most_blocks);
   bool send(const InformationState& state, int from);
-  void gather(const InformationState& state, int at);
-  void add_leaf_to_front(const InformationState& state, int leaf);
-  void add_links_to_front(const InformationState& state, int leaf);
+  void gather(int at);
+  int listed(Condensed& part, int slot, int balance);
+  void list_leaf(const InformationState& state, int leaf, Condensed& part);
+  void list_links(const InformationState& state);
   bool is_complete(int at, FrontVariable v, int balance) const;
   bool condense(const InformationState& state, int at, SentMessage& next);
 
@@ -182,22 +183,20 @@ class CondensationTree {
   void tell_residuals(const InformationState& state);
   bool move_zone(InformationState& state);
   void note_zone_residual(const InformationState& state);
-  void take_from_loose(const InformationState& state);
-  void loosen(const InformationState& state, int leaf);
+  void take_from_loose();
+  void loosen(int leaf);
   void switch_leaves();
-  void tell_residual(const InformationState& state, int at);
+  void tell_residual(int at);
   void replace(int at);
   void settle(FrontVariable v, int at);
-  void condense_residual(const InformationState& state, int at, Condensed& message);
-  void add_part_residuals(const InformationState& state, int at);
+  void condense_residual(int at, Condensed& message);
+  void add_part_residuals(int at);
   void forget(SentMessage& sent);
   bool fill_zone(InformationState& state);
   void take_into_zone(int slot, int h);
   void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone);
   void reserve_boundary(Eigen::Index rows);
-  Eigen::VectorXd::SegmentReturnType residual_of(const InformationState& state, int at);
-  void residual_of_leaf(const InformationState& state, int leaf, const Eigen::Ref<const Eigen::VectorXd>& d,
-                        Eigen::Ref<Eigen::VectorXd> r);
+  Eigen::VectorXd::SegmentReturnType residual_of(int at);
 
   // The live path.
   int leaf_for(const Eigen::Vector2d& p);
@@ -220,6 +219,7 @@ class CondensationTree {
   ChunkedArray<Place> places_;  // by slot
   HotZone zone_;
   SentMessage to_zone_;  // by the hub
+  Condensed links_;      // of the hub that is being made ready
   CondensationPlan plan_;
   std::vector<int> hot_leaves_;
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new

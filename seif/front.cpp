@@ -9,6 +9,7 @@ void Condensed::clear() {
   eliminated.clear();
   boundary.clear();
   tied.clear();
+  part.clear();
   e = b = 0;
   factor.clear();
   S.clear();
@@ -21,6 +22,7 @@ void Condensed::take(Condensed& other) {
   eliminated = other.eliminated;
   boundary = other.boundary;
   tied = other.tied;
+  part = other.part;
   e = other.e;
   b = other.b;
   factor = std::move(other.factor);
@@ -32,6 +34,12 @@ void Condensed::take(Condensed& other) {
 
 void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const {
   r = Eigen::Map<const Eigen::VectorXd>(s.data(), b);
+  for (const Block& block : part) {
+    r.segment<2>(2 * block.i) -= block.Omega_ij * d.segment<2>(2 * block.j);
+    if (block.i != block.j)
+      r.segment<2>(2 * block.j) -= block.Omega_ij.transpose() * d.segment<2>(2 * block.i);
+  }
+  if (!part.empty()) return;
   const double* column = S.data();
   for (Eigen::Index j = 0; j < b; ++j) {
     const Eigen::Map<const Eigen::VectorXd> S_j(column, b - j);
@@ -41,16 +49,21 @@ void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<
   }
 }
 
+std::int64_t Condensed::blocks() const {
+  if (!part.empty()) return static_cast<std::int64_t>(part.size());
+  const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
+  return n * (n + 1) / 2;
+}
+
 std::size_t Condensed::memory_bytes() const {
-  return boundary.capacity() * sizeof(Member) + eliminated.capacity() * sizeof(FrontVariable) +
-         tied.capacity() * sizeof(Tie) +
+  return part.capacity() * sizeof(Block) + boundary.capacity() * sizeof(Member) +
+         eliminated.capacity() * sizeof(FrontVariable) + tied.capacity() * sizeof(Tie) +
          (y.capacity() + s.capacity() + reference.capacity()) * sizeof(double);
 }
 
 void Front::begin() {
   ++front_;
   variables_.clear();
-  blocks_.clear();
   parts_.clear();
 }
 
@@ -77,22 +90,10 @@ void Front::add(const Condensed& part) {
   parts_.push_back(&part);
 }
 
-void Front::add(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij) {
-  blocks_.push_back({.i = slot_i, .j = slot_j, .Omega_ij = Omega_ij});
-}
-
 void Front::tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever) {
   variables_[index_of(group)].balance += variables_[index].balance;
   variables_[index].group = group;
   variables_[index].lever = lever;
-}
-
-void Front::list(Condensed& out) const {
-  out.clear();
-  for (const Variable& v : variables_) {
-    out.boundary.push_back({v.variable, v.balance});
-    out.b += freedom(v.variable);
-  }
 }
 
 // Rows.
@@ -166,19 +167,18 @@ void Front::add_product(const Target& i, const Target& j, double value, bool dia
   if (i.second >= 0 && j.second >= 0) add(i.second, j.second, i.weight * j.weight * value);
 }
 
-void Front::add_block(const Block& block) {
-  targets_.clear();
-  any_tied_ = false;
-  add_targets(block.i);
-  add_targets(block.j);
-  const bool diagonal = block.i == block.j;
-  for (std::size_t a = 0; a < 2; ++a) {
-    for (std::size_t b = 0; b < (diagonal ? a + 1 : 2); ++b) {
-      const double value = block.Omega_ij(static_cast<int>(a), static_cast<int>(b));
-      if (any_tied_) {
-        add_product(targets_[a], targets_[2 + b], value, diagonal && a == b);
-      } else {
-        entry(targets_[a].row, targets_[2 + b].row) += value;
+void Front::add_blocks(const Condensed& part) {
+  for (const Condensed::Block& block : part.part) {
+    const Target* const rows = &targets_[static_cast<std::size_t>(2 * block.i)];
+    const Target* const cols = &targets_[static_cast<std::size_t>(2 * block.j)];
+    const bool diagonal = block.i == block.j;
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < (diagonal ? a + 1 : 2); ++b) {
+        if (any_tied_) {
+          add_product(rows[a], cols[b], block.Omega_ij(a, b), diagonal && a == b);
+        } else {
+          entry(rows[a].row, cols[b].row) += block.Omega_ij(a, b);
+        }
       }
     }
   }
@@ -187,10 +187,11 @@ void Front::add_block(const Block& block) {
 void Front::assemble(Condensed& out) {
   give_rows(out);
   clear_matrix(out);
-  for (const Block& block : blocks_) add_block(block);
   for (const Condensed* part : parts_) {
     find_targets(*part);
-    if (any_tied_) {
+    if (!part->part.empty()) {
+      add_blocks(*part);
+    } else if (any_tied_) {
       add_tied(*part);
     } else {
       add_untied(*part);
@@ -379,7 +380,7 @@ void Front::condense_residual(Condensed& front) {
 
 std::size_t Front::memory_bytes() const {
   return pool_->memory_bytes() + landmarks_.memory_bytes() + groups_.memory_bytes() +
-         variables_.capacity() * sizeof(Variable) + blocks_.capacity() * sizeof(Block) +
+         variables_.capacity() * sizeof(Variable) +
          static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size()) * sizeof(double);
 }
 

@@ -31,7 +31,13 @@ constexpr int freedom(FrontVariable v) { return is_group(v) ? 3 : 2; }  // (x, y
 struct Condensed {
   struct Member {
     FrontVariable variable;
-    int balance;  // [-] see Front::mention
+    /// [-] leaves behind that hold blocks of it; once its own is among them, less all that there are.
+    int balance;
+  };
+  /// Of the matrix of B, by places in the boundary; for i == j the lower triangle counts.
+  struct Block {
+    int i, j;
+    Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
   };
   struct Tie {
     FrontVariable variable;
@@ -42,6 +48,7 @@ struct Condensed {
   std::vector<FrontVariable> eliminated;
   std::vector<Member> boundary;
   std::vector<Tie> tied;
+  std::vector<Block> part;        // S, where nothing has been eliminated, of landmarks alone
   int e = 0, b = 0;               // [-] rows of E, of B
   ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
   ArrayPool::Array S;             // (b x b) lower triangle, by column
@@ -51,10 +58,7 @@ struct Condensed {
 
   auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
   /// The distinct blocks of it.
-  std::int64_t blocks() const {
-    const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
-    return n * (n + 1) / 2;
-  }
+  std::int64_t blocks() const;
   /// s - S d: the residual of B where its mean has gone by d (b) since its reference.
   void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
   void clear();
@@ -80,21 +84,12 @@ class Front {
   ~Front() = default;
 
   void begin();
-  /// The front takes in what another has left.
+  /// The front takes in what another has left, or a part of Omega.
   void add(const Condensed& part);
-  /// The front takes in blocks of a landmark. The balance counts the leaves that hold blocks of it behind the
-  /// front; once its own is among them, less all that there are.
-  void mention(int slot, int balance) { variables_[index_of(slot)].balance += balance; }
-  /// Omega_ij; both must be mentioned. For i == j the lower triangle counts.
-  void add(int slot_i, int slot_j, const Eigen::Matrix2d& Omega_ij);
-
   /// All that is in it so far, in the order in which it came.
   const std::vector<Variable>& variables() const { return variables_; }
   /// From now on a variable moves with a group, which becomes one of the front if it is not.
   void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
-
-  /// Sets only the boundary of `out`, to all that is in the front.
-  void list(Condensed& out) const;
 
   /// Eliminates all variables of which is_complete(variable, balance) holds. False if their block is not
   /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
@@ -134,10 +129,6 @@ class Front {
     bool tied = false;
     Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
   };
-  struct Block {
-    FrontVariable i, j;
-    Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
-  };
   /// Where a row of a part goes: to one row of the front, or, tied, to a second one with this weight.
   struct Target {
     int row;
@@ -154,7 +145,7 @@ class Front {
   std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
   double& entry(int i, int j);
   void add_product(const Target& i, const Target& j, double value, bool diagonal);
-  void add_block(const Block& block);
+  void add_blocks(const Condensed& part);
   void add_untied(const Condensed& part);
   void add_tied(const Condensed& part);
   void list_moved_rows();
@@ -169,7 +160,6 @@ class Front {
   int size_ = 0;
   ChunkedArray<Place> landmarks_, groups_;
   std::vector<Variable> variables_;
-  std::vector<Block> blocks_;
   std::vector<const Condensed*> parts_;
   std::vector<Target> targets_;  // of the rows of one part
   bool any_tied_ = false;        // among them

@@ -210,14 +210,15 @@ EstimatorType seif() {
       .min = 0.1,
       .max = 100.0,
       .help = "With the tree: distance from the robot over size of the coarsest groups [-]."};
-  const OptionSpec tree_blocks{.key = "tree_blocks",
-                               .fallback = std::int64_t{defaults.tree.most_blocks},
-                               .min = 0,
-                               .max = 1'000'000'000,
-                               .help =
-                                   "With the tree: blocks that an update makes ready for the next zone, or a "
-                                   "quarter of what that takes; 0: all at once, and no observation has to "
-                                   "wait [-]."};
+  const OptionSpec tree_blocks{
+      .key = "tree_blocks",
+      .fallback = std::int64_t{defaults.tree.most_blocks},
+      .min = 0,
+      .max = 1'000'000'000,
+      .help =
+          "With the tree: blocks that an update makes ready for the next zone, or an "
+          "eighth of what that takes; 0: all at once, and no observation has to "
+          "wait [-]."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},

@@ -75,14 +75,24 @@ Eigen::MatrixXd unpacked(const Condensed& condensed) {
   return S;
 }
 
-void add_all(Front& front, const Eigen::MatrixXd& M, const std::vector<int>& slots) {
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    front.mention(slots[i], 1);
-    for (std::size_t j = 0; j <= i; ++j) {
-      front.add(slots[i], slots[j],
-                M.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j)));
-    }
+/// All blocks of M, of these landmarks, as they are.
+Condensed part_of(const Eigen::MatrixXd& M, const std::vector<int>& slots) {
+  Condensed part;
+  for (const int slot : slots) part.boundary.push_back({slot, 1});
+  part.b = static_cast<int>(M.rows());
+  for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
+    for (int j = 0; j <= i; ++j) part.part.push_back({i, j, M.block<2, 2>(2 * i, 2 * j)});
   }
+  return part;
+}
+
+/// The front of a part, of which nothing is eliminated.
+Condensed condensed(Front& front, const Condensed& part) {
+  Condensed out;
+  front.begin();
+  front.add(part);
+  EXPECT_TRUE(front.condense([](int, int) { return false; }, out));
+  return out;
 }
 
 std::vector<int> boundary_of(const Condensed& condensed) {
@@ -97,7 +107,8 @@ TEST(Front, LeavesTheSchurComplement) {
   front.begin();
   std::vector<int> slots(9);
   std::iota(slots.begin(), slots.end(), 0);
-  add_all(front, M, slots);
+  const Condensed part = part_of(M, slots);
+  front.add(part);
   Condensed out;
   ASSERT_TRUE(front.condense([](int slot, int) { return slot % 3 != 0; }, out));
   EXPECT_EQ(boundary_of(out), (std::vector<int>{0, 3, 6}));
@@ -111,12 +122,14 @@ TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
   const Eigen::MatrixXd B = positive_definite(10, 3);
   const std::vector<int> of_a{0, 1, 2, 3, 4};
   const std::vector<int> of_b{5, 3, 7, 4, 6};
+  const Condensed part_a = part_of(A, of_a);
+  const Condensed part_b = part_of(B, of_b);
   Condensed a, b, out;
   front.begin();
-  add_all(front, A, of_a);
+  front.add(part_a);
   ASSERT_TRUE(front.condense([](int slot, int) { return slot < 3; }, a));
   front.begin();
-  add_all(front, B, of_b);
+  front.add(part_b);
   ASSERT_TRUE(front.condense([](int slot, int) { return slot > 6; }, b));
   front.begin();
   front.add(a);
@@ -142,8 +155,8 @@ TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
 TEST(Front, RefusesWhatIsNotPositiveDefinite) {
   Front front;
   front.begin();
-  front.mention(0, 1);
-  front.add(0, 0, -Eigen::Matrix2d::Identity());
+  const Condensed part = part_of(-Eigen::Matrix2d::Identity(), {0});
+  front.add(part);
   Condensed out;
   EXPECT_FALSE(front.condense([](int, int) { return true; }, out));
 }
@@ -159,16 +172,52 @@ Eigen::MatrixXd rigid_motion(const std::vector<Eigen::Vector2d>& levers) {
   return P;
 }
 
+TEST(Front, APartOfOmegaHoldsWhatItHoldsCondensed) {
+  Front front;
+  const Eigen::MatrixXd M = positive_definite(8, 6);
+  Condensed part = part_of(M, {4, 1, 3, 2});
+  const Condensed whole = condensed(front, part);
+  EXPECT_LT((unpacked(whole) - M).norm(), rounding * M.norm());
+  EXPECT_EQ(part.blocks(), whole.blocks());
+
+  part.s.assign(8, 0.5);
+  const Eigen::VectorXd d = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
+  Eigen::VectorXd r(8);
+  part.residual(d, r);
+  const Eigen::VectorXd expected = Eigen::VectorXd::Constant(8, 0.5) - M * d;
+  EXPECT_LT((r - expected).norm(), rounding * expected.norm());
+}
+
+// Whole columns are summed for condensed parts, blocks for others.
+TEST(Front, PartsAreTiedInEitherForm) {
+  Front front;
+  const Eigen::MatrixXd M = positive_definite(8, 7);
+  const Condensed part = part_of(M, {0, 1, 2, 3});
+  const Condensed whole = condensed(front, part);
+  const auto tied = [&](const Condensed& taken_in) {
+    Condensed out;
+    front.begin();
+    front.add(taken_in);
+    front.tie(0, group_variable(10), {1.0, 2.0});
+    front.tie(2, group_variable(10), {-3.0, 0.5});
+    EXPECT_TRUE(front.condense([](int v, int) { return v == 1; }, out));
+    return out;
+  };
+  const Condensed by_blocks = tied(part);
+  const Condensed by_columns = tied(whole);
+  ASSERT_EQ(by_blocks.S.size(), by_columns.S.size());
+  for (std::size_t i = 0; i < by_blocks.S.size(); ++i)
+    EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], rounding * M.norm());
+}
+
 // Four landmarks of which three move as one, two of these and then all three in turn.
 TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
   const Eigen::MatrixXd M = positive_definite(8, 5);
   const std::vector<Eigen::Vector2d> levers{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
   const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; that of the smaller is the origin
   Front front;
-  front.begin();
-  add_all(front, M, {0, 1, 2, 3});
-  Condensed landmarks, pair, all;
-  ASSERT_TRUE(front.condense([](int, int) { return false; }, landmarks));
+  const Condensed landmarks = condensed(front, part_of(M, {0, 1, 2, 3}));
+  Condensed pair, all;
   front.begin();
   front.add(landmarks);
   front.tie(0, group_variable(10), levers[0]);
@@ -215,11 +264,7 @@ struct ZoneOfEight {
     Front front;
     std::vector<int> slots(8);
     std::iota(slots.begin(), slots.end(), 0);
-    front.begin();
-    add_all(front, M, slots);
-    Condensed out;
-    EXPECT_TRUE(front.condense([](int, int) { return false; }, out));
-    zone.load(out);
+    zone.load(condensed(front, part_of(M, slots)));
   }
 
   Eigen::MatrixXd F(const std::vector<int>& places) const {
