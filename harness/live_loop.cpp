@@ -51,6 +51,11 @@ void guard(LiveEstimator& estimator, double t, const Step& step) {
 
 }  // namespace
 
+seif::LandmarkId true_id_of(const seif::Estimator& filter, const TrueNames& names,
+                            seif::LandmarkId landmark) {
+  return filter.needs_names() ? landmark : names.of(landmark);
+}
+
 std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
                                            std::span<const worlds::EstimatorChoice> choices,
                                            const LogDescription& log, std::uint64_t seed) {

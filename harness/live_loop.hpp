@@ -31,6 +31,10 @@ struct LiveEstimator {
   std::string failure;                 // why it was taken out of the run; empty: it runs
 };
 
+/// The name that the world has for a landmark of an estimator's map: its own, if the estimator is told the
+/// names.
+seif::LandmarkId true_id_of(const seif::Estimator& filter, const TrueNames& names, seif::LandmarkId landmark);
+
 /// Makes the estimators that a world asks for. Each draws from a stream of its own, (seed,
 /// "estimator/<name>"). Throws BadInput if a type is not registered, a name stands twice or is not fit for
 /// a file name, or an estimator needs names that the log's observations do not have.

@@ -42,11 +42,6 @@ std::int64_t TrueNames::right() const {
   return sum;
 }
 
-seif::LandmarkId true_id_of(const seif::Estimator& filter, const TrueNames& names,
-                            seif::LandmarkId landmark) {
-  return filter.needs_names() ? landmark : names.of(landmark);
-}
-
 std::optional<Associations> read_associations(const std::filesystem::path& folder,
                                               const std::string& estimator) {
   const std::filesystem::path file = folder / (estimator + "_associations.csv");

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "harness/run_listener.hpp"
-#include "seif/estimator.hpp"
 #include "seif/types.hpp"
 
 namespace harness {
@@ -35,9 +34,6 @@ class TrueNames {
  private:
   std::map<seif::LandmarkId, std::map<seif::LandmarkId, std::int64_t>> counts_;
 };
-
-/// The name that the world has for a landmark of a filter's map: its own, if the filter is told the names.
-seif::LandmarkId true_id_of(const seif::Estimator& filter, const TrueNames& names, seif::LandmarkId landmark);
 
 /// What a filter that names landmarks by itself made of the observations of a run.
 struct Associations {
