@@ -6,6 +6,26 @@
 
 namespace seif {
 
+Eigen::Vector2d CondensationTree::zone_middle(const Pose2& pose) const {
+  return pose * Eigen::Vector2d(options_.zone_before * view_, 0.0);
+}
+
+void CondensationTree::note_travel(const InformationState& state) {
+  constexpr double kept = 0.95;  // of it, at an update that goes less far
+  const Eigen::Vector2d now = zone_middle(state.linearisation_pose());
+  if (scan_ > 1) travel_ = std::max((now - last_middle_).norm(), kept * travel_);
+  last_middle_ = now;
+}
+
+/// In how many slices a plan is made ready: half of the updates in which the robot comes to see what has
+/// called for it.
+int CondensationTree::slices() const {
+  constexpr double least = 4.0;
+  constexpr double most = 64.0;
+  const double updates = options_.zone_before * view_ / std::max(travel_, 1e-9);
+  return static_cast<int>(std::clamp(0.5 * updates, least, most));
+}
+
 /// False if the zone may stay as it is. Otherwise plan_.hot_leaves are those of the landmarks that are active
 /// or seen, those near the robot, and those last used that still have room beside them.
 bool CondensationTree::choose_hot_leaves(const InformationState& state, std::span<const int> slots) {
@@ -25,9 +45,8 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once
     // Leaves stay where their landmarks first were, however a closure has bent the map since.
-    const Eigen::Vector2d before_robot(options_.zone_before * view_, 0.0);
-    tree_.for_each_leaf_near(state.linearisation_pose() * before_robot, views * view_, want);
-    if (elsewhere) tree_.for_each_leaf_near(*elsewhere * before_robot, views * view_, want);
+    tree_.for_each_leaf_near(zone_middle(state.linearisation_pose()), views * view_, want);
+    if (elsewhere) tree_.for_each_leaf_near(zone_middle(*elsewhere), views * view_, want);
   };
   want_near(options_.look_ahead);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return node(leaf).hot; });
@@ -95,7 +114,7 @@ void CondensationTree::prepare_plan(const InformationState& state, int hub) {
   std::int64_t as_before = 0;  // what the messages that go have cost
   for (const int at : plan_.order) as_before += sent(at).message.blocks();
   const bool in_slices = options_.most_blocks > 0;
-  plan_.most_blocks = in_slices ? std::max<std::int64_t>(options_.most_blocks, as_before / most_slices) : 0;
+  plan_.most_blocks = in_slices ? std::max<std::int64_t>(options_.most_blocks, as_before / slices()) : 0;
   while (plan_.messages.size() < plan_.order.size()) plan_.messages.emplace_back();
 }
 

@@ -6,13 +6,17 @@
 
 namespace seif {
 
+/// At least one message, and as many as will not take more blocks, if each takes what the one before it took.
 /// False if a matrix is not positive definite.
 bool CondensationTree::make_ready(const InformationState& state, std::int64_t most_blocks) {
   const std::int64_t until = most_blocks > 0 ? blocks_touched_ + most_blocks  //
                                              : std::numeric_limits<std::int64_t>::max();
-  while (plan_.ready < plan_.order.size() && blocks_touched_ < until) {
-    if (!send(state, plan_.order[plan_.ready])) return false;
-    ++plan_.ready;
+  const std::size_t before = plan_.ready;
+  for (; plan_.ready < plan_.order.size(); ++plan_.ready) {
+    const int at = plan_.order[plan_.ready];
+    const std::int64_t expected = sent(at).message.blocks();
+    if (plan_.ready > before && expected > until - blocks_touched_) break;
+    if (!send(state, at)) return false;
   }
   return true;
 }

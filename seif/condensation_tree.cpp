@@ -63,6 +63,7 @@ bool CondensationTree::activate(InformationState& state, std::vector<int>& slots
   ++scan_;
   constexpr double kept = 0.99;  // of it, at a scan that sees less far
   view_ = std::max(range, kept * view_);
+  note_travel(state);
   for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
   for (const int slot : slots) node(place(slot).leaf).used = scan_;
   for (const int slot : wanted_) node(place(slot).leaf).used = scan_;

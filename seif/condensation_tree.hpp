@@ -36,8 +36,8 @@ struct CondensationOptions {
   /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
   int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
-  /// [-] Blocks of messages that one update makes ready for the next zone, or an eighth of those that it
-  /// takes if that is more, and perhaps one message more. 0: all at once, as soon as a landmark is seen
+  /// [-] Blocks of messages that one update makes ready for the next zone, or more where the robot would be
+  /// there before it is ready, but at least one message. 0: all at once, as soon as a landmark is seen
   /// outside of the zone.
   int most_blocks = 5'000;
   // In multiples of how far the robot sees:
@@ -73,8 +73,8 @@ class CondensationTree {
   /// After these have been dropped from the window.
   [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
 
-  /// After the last solve_window() of an update. Until the next activate() no mean of a landmark may change,
-  /// but by rounding.
+  /// After the last solve_window() of an update; without it the zone never moves, unless most_blocks is 0.
+  /// Until the next activate() no mean of a landmark may change, but by rounding.
   void end_update(const InformationState& state);
 
   /// p_world_landmark, in O(log N). [m]
@@ -105,8 +105,7 @@ class CondensationTree {
 
  private:
   static constexpr int none = -1;
-  static constexpr int most_bare = 8;    // [-] leaves below a node that condenses nothing
-  static constexpr int most_slices = 8;  // [-] of a plan that is large
+  static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
   using Place = CondensedLandmark;
   using Node = CondensationNode;
   Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
@@ -144,6 +143,9 @@ class CondensationTree {
   }
 
   // Planning.
+  Eigen::Vector2d zone_middle(const Pose2& pose) const;
+  void note_travel(const InformationState& state);
+  int slices() const;
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
   void add_last_used(int landmarks);
   void begin_plan(const InformationState& state);
@@ -227,6 +229,8 @@ class CondensationTree {
   std::vector<int> wanted_;            // slots
   mutable Eigen::MatrixXd by_factor_;  // scratch (w x 3+2m), with room to grow
   double view_ = 0.0;                  // how far the robot sees [m]
+  double travel_ = 0.0;                // how far the middle of the zone goes in an update [m]
+  Eigen::Vector2d last_middle_ = Eigen::Vector2d::Zero();
   mutable std::vector<int> owners_;
   std::int64_t epoch_ = 1;
   std::int64_t zone_followed_at_ = 0;  // epoch, as below

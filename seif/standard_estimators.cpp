@@ -216,9 +216,9 @@ EstimatorType seif() {
       .min = 0,
       .max = 1'000'000'000,
       .help =
-          "With the tree: blocks that an update makes ready for the next zone, or an "
-          "eighth of what that takes; 0: all at once, and no observation has to "
-          "wait [-]."};
+          "With the tree: blocks that an update makes ready for the next zone, or more "
+          "where the robot would be there before it is ready; 0: all at once, and no "
+          "observation has to wait [-]."};
   const OptionSpec other_groups{
       .key = "other_groups",
       .fallback = std::int64_t{defaults.multilevel.other_groups},

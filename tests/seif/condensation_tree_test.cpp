@@ -51,6 +51,8 @@ struct Twins {
     state.update_first_estimates();
     exact.update_first_estimates();
     sparsify(theta_x, theta_max);
+    solve();
+    tree.end_update(state);
   }
 
   bool activate_known(const Scan& scan) {
@@ -289,7 +291,7 @@ double largest(const Eigen::VectorXd& r) { return r.cwiseAbs().maxCoeff(); }
 // once they move one by one.
 TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
   const Points path = GetParam().path();
-  double most_left = 0.0;
+  std::array<double, 2> most_left{};  // all at once, and in slices
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
@@ -300,12 +302,13 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
       ASSERT_EQ(twins.tree.broken_invariant(twins.state), std::nullopt) << "update " << k;
       ASSERT_LT(largest(twins.exact.r()), rounding) << "update " << k;
     }
-    most_left = std::max(most_left, largest(twins.exact.full_r()));
+    most_left[seed % 2] = std::max(most_left[seed % 2], largest(twins.exact.full_r()));
     ASSERT_TRUE(twins.tree.solve_all(twins.state));
     twins.follow();
     EXPECT_LT(largest(twins.exact.full_r()), rounding);
   }
-  EXPECT_GT(most_left, 1e4 * rounding);  // or there were no groups
+  EXPECT_GT(most_left[1], 1e4 * rounding);  // or there were no groups
+  EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * rounding);
 }
 
 TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {
