@@ -27,7 +27,7 @@ std::string choose_baseline(const std::string& asked, std::span<const worlds::Es
 worlds::LoadResult load_with_baseline(const std::string& baseline, const seif::Registry& registry,
                                       std::vector<std::string>& overrides,
                                       const std::function<worlds::LoadResult()>& load) {
-  const worlds::LoadResult loaded = load();
+  worlds::LoadResult loaded = load();
   if (!loaded.world || is_among(loaded.world->estimators, baseline) || registry.find(baseline) == nullptr)
     return loaded;
   overrides.push_back(fmt::format("estimators.{}={{}}", baseline));
