@@ -75,7 +75,7 @@ void CondensationTree::list_leaf(const InformationState& state, int leaf, Conden
   for_each_owned_block(state, leaf, [&](int slot, int other, const auto& Omega_so) {
     ++blocks_touched_;
     const int i = listed_at(slot);
-    part.part.push_back({.i = i, .j = listed_at(other), .Omega_ij = Omega_so});
+    part.S_blocks.push_back({.i = i, .j = listed_at(other), .Omega_ij = Omega_so});
   });
 }
 
@@ -91,7 +91,7 @@ void CondensationTree::list_links(const InformationState& state) {
         const int leaf_of_other = place(other).leaf;
         if (leaf_of_other < leaf || node(leaf_of_other).next_hot) return;
         const int i = listed(links_, slot, 0);
-        links_.part.push_back({.i = i, .j = listed(links_, other, 0), .Omega_ij = Omega_so});
+        links_.S_blocks.push_back({.i = i, .j = listed(links_, other, 0), .Omega_ij = Omega_so});
       });
     });
   }

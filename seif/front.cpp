@@ -9,7 +9,7 @@ void Condensed::clear() {
   eliminated.clear();
   boundary.clear();
   tied.clear();
-  part.clear();
+  S_blocks.clear();
   e = b = 0;
   factor.clear();
   S.clear();
@@ -22,7 +22,7 @@ void Condensed::take(Condensed& other) {
   eliminated = other.eliminated;
   boundary = other.boundary;
   tied = other.tied;
-  part = other.part;
+  S_blocks = other.S_blocks;
   e = other.e;
   b = other.b;
   factor = std::move(other.factor);
@@ -34,12 +34,12 @@ void Condensed::take(Condensed& other) {
 
 void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const {
   r = Eigen::Map<const Eigen::VectorXd>(s.data(), b);
-  for (const Block& block : part) {
+  for (const Block& block : S_blocks) {
     r.segment<2>(2 * block.i) -= block.Omega_ij * d.segment<2>(2 * block.j);
     if (block.i != block.j)
       r.segment<2>(2 * block.j) -= block.Omega_ij.transpose() * d.segment<2>(2 * block.i);
   }
-  if (!part.empty()) return;
+  if (!S_blocks.empty()) return;
   const double* column = S.data();
   for (Eigen::Index j = 0; j < b; ++j) {
     const Eigen::Map<const Eigen::VectorXd> S_j(column, b - j);
@@ -50,13 +50,13 @@ void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<
 }
 
 std::int64_t Condensed::blocks() const {
-  if (!part.empty()) return static_cast<std::int64_t>(part.size());
+  if (!S_blocks.empty()) return static_cast<std::int64_t>(S_blocks.size());
   const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
   return n * (n + 1) / 2;
 }
 
 std::size_t Condensed::memory_bytes() const {
-  return part.capacity() * sizeof(Block) + boundary.capacity() * sizeof(Member) +
+  return S_blocks.capacity() * sizeof(Block) + boundary.capacity() * sizeof(Member) +
          eliminated.capacity() * sizeof(FrontVariable) + tied.capacity() * sizeof(Tie) +
          (y.capacity() + s.capacity() + reference.capacity()) * sizeof(double);
 }
@@ -168,7 +168,7 @@ void Front::add_product(const Target& i, const Target& j, double value, bool dia
 }
 
 void Front::add_blocks(const Condensed& part) {
-  for (const Condensed::Block& block : part.part) {
+  for (const Condensed::Block& block : part.S_blocks) {
     const Target* const rows = &targets_[static_cast<std::size_t>(2 * block.i)];
     const Target* const cols = &targets_[static_cast<std::size_t>(2 * block.j)];
     const bool diagonal = block.i == block.j;
@@ -189,7 +189,7 @@ void Front::assemble(Condensed& out) {
   clear_matrix(out);
   for (const Condensed* part : parts_) {
     find_targets(*part);
-    if (!part->part.empty()) {
+    if (!part->S_blocks.empty()) {
       add_blocks(*part);
     } else if (any_tied_) {
       add_tied(*part);

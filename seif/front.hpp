@@ -48,7 +48,7 @@ struct Condensed {
   std::vector<FrontVariable> eliminated;
   std::vector<Member> boundary;
   std::vector<Tie> tied;
-  std::vector<Block> part;        // S, where nothing has been eliminated, of landmarks alone
+  std::vector<Block> S_blocks;    // S, where nothing has been eliminated, of landmarks alone
   int e = 0, b = 0;               // [-] rows of E, of B
   ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
   ArrayPool::Array S;             // (b x b) lower triangle, by column

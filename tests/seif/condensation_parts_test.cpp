@@ -81,7 +81,7 @@ Condensed part_of(const Eigen::MatrixXd& M, const std::vector<int>& slots) {
   for (const int slot : slots) part.boundary.push_back({slot, 1});
   part.b = static_cast<int>(M.rows());
   for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
-    for (int j = 0; j <= i; ++j) part.part.push_back({i, j, M.block<2, 2>(2 * i, 2 * j)});
+    for (int j = 0; j <= i; ++j) part.S_blocks.push_back({i, j, M.block<2, 2>(2 * i, 2 * j)});
   }
   return part;
 }
