@@ -37,11 +37,12 @@ std::optional<Pose2> fitted(std::span<const FirstEstimate> landmarks, const Pose
 
 }  // namespace
 
-FramedPose pose_among(std::span<FirstEstimate> landmarks, const Pose2& pose, const Pose2& carried) {
+FramedPose pose_among(std::span<FirstEstimate> landmarks, const Pose2& pose, const Pose2& carried,
+                      double sighting_sd) {
   const Eigen::Vector2d here(pose.x, pose.y);
   const auto fit_to = [&](const Pose2& at) {
-    return [&here, there = Eigen::Vector2d(at.x, at.y)](const FirstEstimate& landmark) {
-      return stands_for(landmark.first - there, landmark.mean - here);
+    return [&here, sighting_sd, there = Eigen::Vector2d(at.x, at.y)](const FirstEstimate& landmark) {
+      return stands_for(landmark.first - there, landmark.mean - here, sighting_sd);
     };
   };
   const auto others = std::ranges::partition(landmarks, fit_to(carried));

@@ -14,12 +14,12 @@ struct FirstEstimate {
   Eigen::Vector2d first;
 };
 
-/// Whether a lever between first estimates may stand for the one between means. If it is too wrong, a step of
-/// the heading no longer moves the landmark by what it should, and an observation says what is not true. The
-/// fraction was chosen on rings of 500 m and 2 km, on which 0.1 to 0.35 made no difference.
-inline bool stands_for(const Eigen::Vector2d& first_lever, const Eigen::Vector2d& lever) {
-  constexpr double most = 0.3;  // [-] of its length
-  return (first_lever - lever).squaredNorm() <= most * most * lever.squaredNorm();
+/// Whether a lever between first estimates may stand for the one between means: not if it is farther from it
+/// than the noise of a sighting explains, `sighting_sd` [m]. Then the landmark was moved with another part of
+/// the map. Chosen on rings of 500 m, where five to ten made no difference.
+inline bool stands_for(const Eigen::Vector2d& first_lever, const Eigen::Vector2d& lever, double sighting_sd) {
+  constexpr double most = 7.0;  // [sigma]
+  return (first_lever - lever).squaredNorm() <= most * most * sighting_sd * sighting_sd;
 }
 
 struct FramedPose {
@@ -32,6 +32,7 @@ struct FramedPose {
 /// the end of a loop there are two kinds, the loop having been closed by moving its end onto its beginning:
 /// once more than half are not where `carried` has them, and agree with one another, they are the ones that
 /// count. Reorders `landmarks`.
-FramedPose pose_among(std::span<FirstEstimate> landmarks, const Pose2& pose, const Pose2& carried);
+FramedPose pose_among(std::span<FirstEstimate> landmarks, const Pose2& pose, const Pose2& carried,
+                      double sighting_sd);
 
 }  // namespace seif

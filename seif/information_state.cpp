@@ -33,7 +33,7 @@ Eigen::Vector2d InformationState::move_pose(const Pose2& pose) {
   }
   const Pose2 from = linearisation_pose_;
   const Pose2 carried = from * (inverse(before) * pose);
-  const FramedPose framed = pose_among(first_estimates_, pose, carried);
+  const FramedPose framed = pose_among(first_estimates_, pose, carried, sighting_sd_);
   linearisation_pose_ = framed.pose;
   const Pose2 to = framed.another_frame ? carried : framed.pose;  // changing the frame is no motion
   return {to.x - from.x, to.y - from.y};
@@ -44,10 +44,10 @@ Eigen::Vector2d InformationState::linearisation_point(int slot) const {
 }
 
 Eigen::Vector2d InformationState::lever(int slot, const Eigen::Vector2d& p_world_landmark) const {
-  const Eigen::Vector2d lever = p_world_landmark - mu_.head<2>();
+  Eigen::Vector2d lever = p_world_landmark - mu_.head<2>();
   if (!uses_first_estimates()) return lever;
   const Eigen::Vector2d first = first_lever(slot);
-  return stands_for(first, lever) ? first : lever;
+  return stands_for(first, lever, sighting_sd_) ? first : lever;
 }
 
 Eigen::Vector2d InformationState::first_lever(int slot) const {
@@ -58,7 +58,7 @@ std::optional<Pose2> InformationState::other_linearisation_pose() const {
   if (!uses_first_estimates()) return std::nullopt;
   for (const int slot : active_) {
     const Eigen::Vector2d lever = mean(slot) - mu_.head<2>();
-    if (stands_for(first_lever(slot), lever)) continue;
+    if (stands_for(first_lever(slot), lever, sighting_sd_)) continue;
     const Eigen::Vector2d p = linearisation_point(slot) - lever;
     return Pose2{p.x(), p.y(), linearisation_pose_.theta};
   }
@@ -72,12 +72,28 @@ Eigen::Vector2d InformationState::among_first_estimates(const Eigen::Vector2d& p
   return Eigen::Vector2d(linearisation_pose_.x, linearisation_pose_.y) + p_world - mu_.head<2>();
 }
 
+/// No longer than until it has a link to a passive landmark: moving it would link the pose to that one.
 void InformationState::update_first_estimates() {
   for (int position = 0; position < active_count(); ++position) {
-    Landmark& landmark = landmarks_[index(active(position))];
-    if (landmark.sightings > settled_after_) continue;
-    landmark.first_estimate = among_first_estimates(mu_.segment<2>(row_of(position)));
+    const Landmark& landmark = landmarks_[index(active(position))];
+    if (landmark.sightings > settled_after_ || landmark.first_link != none) continue;
+    move_first_estimate(position, among_first_estimates(mu_.segment<2>(row_of(position))));
   }
+}
+
+/// Omega knows nothing of turning everything about the first estimates as they were. With its variables
+/// changed so that turning the pose by dtheta takes the landmark along by J (from - to) dtheta, J a quarter
+/// turn, it knows nothing of turning everything about those that there are now.
+void InformationState::move_first_estimate(int position, const Eigen::Vector2d& to) {
+  Point& first_estimate = landmarks_[index(active(position))].first_estimate;
+  const Eigen::Vector2d by = to - first_estimate;
+  first_estimate = to;
+  auto Omega = this->Omega();
+  const int row = row_of(position);
+  Omega.col(2) += by.y() * Omega.col(row) - by.x() * Omega.col(row + 1);
+  Omega.row(2) += by.y() * Omega.row(row) - by.x() * Omega.row(row + 1);
+  r_(2) += by.y() * r_(row) - by.x() * r_(row + 1);
+  touch(active_count() + 1);
 }
 
 void InformationState::mark_seen(int slot) {

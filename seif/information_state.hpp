@@ -17,6 +17,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -56,12 +57,12 @@ class InformationState {
 
   /// From now on moving and turning everything at once is taken to move the pose and the landmarks about
   /// their first estimates, a landmark's being where it was believed to be after `sightings` scans (at least
-  /// one) that saw it. Then this motion is one and the same for all time, and nothing is learned of what
-  /// nothing observes: Huang, Mourikis, Roumeliotis, "Observability-based rules for designing consistent EKF
-  /// SLAM estimators", IJRR 2010. The pose's is where its prediction stands among the first estimates
-  /// (pose_among()); once the map has moved as a whole, as at the end of a loop, the prediction itself would
-  /// not fit to them. Nor would a new landmark's mean, so its first estimate is put where it is from there.
-  /// Before the first landmark joins.
+  /// one) that saw it, or as it gets its first link to a passive landmark. Then this motion is one and the
+  /// same for all time, and nothing is learned of what nothing observes: Huang, Mourikis, Roumeliotis,
+  /// "Observability-based rules for designing consistent EKF SLAM estimators", IJRR 2010. The pose's is where
+  /// its prediction stands among the first estimates (pose_among()); once the map has moved as a whole, as at
+  /// the end of a loop, the prediction itself would not fit to them. Nor would a new landmark's mean, so its
+  /// first estimate is put where it is from there. Before the first landmark joins.
   void use_first_estimates(int sightings) { settled_after_ = sightings; }
   bool uses_first_estimates() const { return settled_after_ > 0; }
 
@@ -76,7 +77,12 @@ class InformationState {
   /// between the first estimates wherever it stands for it.
   Eigen::Vector2d lever(int slot, const Eigen::Vector2d& p_world_landmark) const;
 
-  /// Takes the present means for the first estimates of active landmarks that are not settled yet.
+  /// How far from where a landmark is the latest scan may have seen it (one sigma, the largest) [m]: by this
+  /// stands_for() judges. Before it is told, all first estimates stand.
+  void note_sighting_sd(double sighting_sd) { sighting_sd_ = sighting_sd; }
+
+  /// Takes the present means for the first estimates of active landmarks that are not settled yet. What is
+  /// known stays known of the motion about the new ones.
   void update_first_estimates();
 
   /// The slot of the active landmark at a position of the window.
@@ -208,6 +214,7 @@ class InformationState {
   void note_residual(Landmark& landmark);
   Eigen::Vector2d first_lever(int slot) const;  // between first estimates
   Eigen::Vector2d among_first_estimates(const Eigen::Vector2d& p_world) const;
+  void move_first_estimate(int position, const Eigen::Vector2d& to);
 
   std::vector<int> active_;  // slots, by position
   Eigen::MatrixXd Omega_;    // window, with room to grow
@@ -222,7 +229,8 @@ class InformationState {
   LandmarkIndex index_;
   int settled_after_ = 0;  // [-] sightings; 0: Jacobians at the mean
   Pose2 linearisation_pose_;
-  std::vector<FirstEstimate> first_estimates_;  // scratch, of the active landmarks
+  double sighting_sd_ = std::numeric_limits<double>::infinity();  // [m]
+  std::vector<FirstEstimate> first_estimates_;                    // scratch, of the active landmarks
   int scan_ = 0;
   bool tracks_residual_ = false;
   double squared_residual_ = 0.0;  // of the passive landmarks

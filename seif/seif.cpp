@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "seif/couplings.hpp"
@@ -15,6 +16,12 @@ namespace seif {
 namespace {
 
 constexpr int most_relinearisations = 4;  // [-] in one update
+
+/// Of where it has seen the landmark, along the worse of range and bearing [m].
+double sd_of_sighting(const Observation& observation) {
+  const Eigen::Matrix2d& Q = observation.covariance;
+  return std::sqrt(std::max(Q(0, 0), observation.range * observation.range * Q(1, 1)));
+}
 
 }  // namespace
 
@@ -42,8 +49,8 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (by_tree_) note_innovation();
   relinearise(scan.t);
   if (!add_new(scan)) solve_window(scan.t);
-  if (!by_tree_) mean_.after_information(state_);
   state_.update_first_estimates();
+  if (!by_tree_) mean_.after_information(state_);
   done(Stage::measurement);
 
   sparsify(scan.t);
@@ -56,10 +63,13 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
 void Seif::activate_known(const Scan& scan) {
   seen_.clear();
   double range = 0.0;
+  double sighting_sd = 0.0;
   for (const Observation& observation : scan.observations) {
     range = std::max(range, observation.range);
+    sighting_sd = std::max(sighting_sd, sd_of_sighting(observation));
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
+  if (sighting_sd > 0.0) state_.note_sighting_sd(sighting_sd);
   for (const auto& [a, b] : equal_) {
     for (const int slot : {a, b}) {
       if (std::ranges::find(seen_, slot) == seen_.end()) seen_.push_back(slot);

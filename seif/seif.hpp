@@ -23,8 +23,8 @@ enum class SeifMean {
 struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
   int theta_max = 16;  // [-] sparsify only when the robot has more links than this
-  /// [-] A landmark's first estimate is that after so many scans that saw it (InformationState::
-  /// use_first_estimates). 0: none.
+  /// [-] A landmark's first estimate is that after so many scans that saw it, or earlier, once it has a link
+  /// to a passive one (InformationState::use_first_estimates). 0: none.
   int first_estimates = 5;
   /// [sigma] Nonlinearity of an observation above which it is linearised again, where the update has moved
   /// the mean to.
@@ -81,6 +81,7 @@ class Seif final : public AssociableFilter {
   Eigen::Vector2d mean_of(LandmarkId landmark) const override;
   ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override;
   void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
+  bool keeps_start_uncertainty() const override { return state_.uses_first_estimates(); }
   void want(std::span<const LandmarkId> landmarks) override;
   void equate(LandmarkId a, LandmarkId b) override;
 

@@ -183,10 +183,10 @@ TEST(LongRing, OfTwoKilometresClosesNearlyAsInTheOptimum) {
   EXPECT_LE(found.back(), 2.0);
 }
 
-// The aim is 1.05, and 1.2 for the worst; measured are 1.052 and 1.63.
+// The aim for the worst is 1.2; measured are 1.01 and 1.54.
 TEST(LongRing, OfFiveHundredMetresClosesAsInTheOptimum) {
   const std::vector<double> found = ratios(500.0, 21);
-  EXPECT_LE(found.at(10), 1.10);
+  EXPECT_LE(found.at(10), 1.05);
   EXPECT_LE(found.back(), 2.0);
 }
 
@@ -221,9 +221,7 @@ void print(const char* filter, const AboutClosure& nees) {
               nees[0].pose, nees[0].map, nees[1].pose, nees[1].map, nees[2].pose, nees[2].map);
 }
 
-// The aim is 0.8 to 1.3 after the closure too; 5.1 and 6.5 were measured, of the ekf 318 and 437: what has
-// turned by much as the ring closed is no longer where it was linear.
-TEST(LongRing, KnowsHowFarOffItIsUntilItClosesAndBetterThanTheEkfFromThenOn) {
+TEST(LongRing, KnowsHowFarOffItIsBeforeItClosesAndAfter) {
   std::vector<AboutClosure> of_seif;
   std::vector<AboutClosure> of_ekf;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -240,12 +238,13 @@ TEST(LongRing, KnowsHowFarOffItIsUntilItClosesAndBetterThanTheEkfFromThenOn) {
   std::printf("Means\n");
   print("seif", seif);
   print("ekf", ekf);
-  for (const double nees : {seif[0].pose, seif[0].map, seif[1].pose, seif[1].map}) {
-    EXPECT_GE(nees, 0.8);
-    EXPECT_LE(nees, 1.3);
+  for (const Nees& nees : seif) {
+    EXPECT_GE(nees.pose, 0.8);
+    EXPECT_LE(nees.pose, 1.3);
+    EXPECT_GE(nees.map, 0.8);
+    EXPECT_LE(nees.map, 1.3);
   }
-  EXPECT_LE(seif[2].pose, 0.1 * ekf[2].pose);
-  EXPECT_LE(seif[2].map, 0.1 * ekf[2].map);
+  EXPECT_GT(std::min(ekf[2].pose, ekf[2].map), 100.0);  // it is not easy
 }
 
 }  // namespace

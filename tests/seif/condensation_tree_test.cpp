@@ -28,6 +28,8 @@ struct Twins {
       : state(start), exact(start), tree(options, start.mean), exact_follows(follows) {
     state.use_first_estimates(5);
     exact.use_first_estimates(5);
+    state.note_sighting_sd(0.04);  // as RingDrive and PathDrive see
+    exact.note_sighting_sd(0.04);
   }
 
   InformationState state;
@@ -313,9 +315,10 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
 
 TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {
   const Points path = GetParam().path();
+  const unsigned drives = std::max(seeds, 5U);  // a ratio of sums: one drive alone says little
   double squared_error = 0.0;
   double squared_error_of_exact = 0.0;
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
+  for (unsigned seed = 1; seed <= drives; ++seed) {
     const Points truth = test::landmarks_along(path, seed);
     test::PathDrive drive(truth, path, seed);
     Twins twins(drive.setup().start, {.most_unknowns = 10, .grain = 0.5}, true);

@@ -15,6 +15,7 @@ namespace {
 
 const Pose2 pose{3.0, 1.0, 0.4};
 const Pose2 turned_and_moved{40.0, -7.0, 0.1};  // T_first_mean
+constexpr double sighting_sd = 0.05;            // [m]
 
 /// Landmarks about the robot, at first estimates that all of them have moved from together.
 std::vector<FirstEstimate> landmarks_moved_by(const Pose2& T_first_mean, int count, double phase) {
@@ -36,7 +37,8 @@ void expect_equal(const Pose2& a, const Pose2& b) {
 TEST(FirstEstimateFrame, IsTheRigidMotionFromMeansToFirstEstimates) {
   std::vector<FirstEstimate> landmarks = landmarks_moved_by(turned_and_moved, 5, 0.0);
   const Pose2 truth = turned_and_moved * pose;
-  const FramedPose framed = pose_among(landmarks, pose, {truth.x + 0.1, truth.y - 0.1, truth.theta});
+  const FramedPose framed =
+      pose_among(landmarks, pose, {truth.x + 0.1, truth.y - 0.1, truth.theta}, sighting_sd);
   expect_equal(framed.pose, truth);
   EXPECT_FALSE(framed.another_frame);
 }
@@ -44,8 +46,8 @@ TEST(FirstEstimateFrame, IsTheRigidMotionFromMeansToFirstEstimates) {
 TEST(FirstEstimateFrame, IsCarriedAlongWhereLessThanTwoLandmarksTellIt) {
   std::vector<FirstEstimate> landmarks = landmarks_moved_by(turned_and_moved, 1, 0.0);
   const Pose2 carried{41.0, -6.0, 0.2};
-  expect_equal(pose_among(landmarks, pose, carried).pose, carried);
-  expect_equal(pose_among({}, pose, carried).pose, carried);
+  expect_equal(pose_among(landmarks, pose, carried, sighting_sd).pose, carried);
+  expect_equal(pose_among({}, pose, carried, sighting_sd).pose, carried);
 }
 
 TEST(FirstEstimateFrame, IsThatOfTheMostOnceALoopIsClosed) {
@@ -55,7 +57,7 @@ TEST(FirstEstimateFrame, IsThatOfTheMostOnceALoopIsClosed) {
     for (const FirstEstimate& landmark : landmarks_moved_by(beginning, of_the_beginning, 0.5)) {
       landmarks.push_back(landmark);
     }
-    const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose);
+    const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose, sighting_sd);
     expect_equal(framed.pose, (of_the_beginning > 4 ? beginning : turned_and_moved) * pose);
     EXPECT_EQ(framed.another_frame, of_the_beginning > 4);
   }
@@ -66,20 +68,21 @@ TEST(FirstEstimateFrame, IsKeptWhereTheOthersDoNotAgree) {
   for (int k = 0; k < 6; ++k) {
     landmarks.push_back({.mean = {3.0 + k, 4.0}, .first = {100.0 * k * k, -30.0 * (k % 2)}});
   }
-  const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose);
+  const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose, sighting_sd);
   expect_equal(framed.pose, turned_and_moved * pose);
   EXPECT_FALSE(framed.another_frame);
 }
 
-/// Six active landmarks seen from the origin, of which the last two have been moved 50 m away since.
-InformationState closed_loop() {
+/// Six active landmarks seen from the origin, of which the last two have been moved since, by 50 m or so far.
+InformationState closed_loop(double moved = 50.0) {
   InformationState state({.mean = {}, .covariance = 0.01 * Eigen::Matrix3d::Identity()});
   state.use_first_estimates(1);
+  state.note_sighting_sd(sighting_sd);
   for (int k = 0; k < 6; ++k) {
     const Eigen::Vector2d p(3.0 * std::cos(1.0 * k), 3.0 * std::sin(1.0 * k));
-    state.activate(state.add_landmark(k, k < 4 ? p : Eigen::Vector2d(p.x() + 50.0, p.y())));
+    state.activate(state.add_landmark(k, k < 4 ? p : Eigen::Vector2d(p.x() + moved, p.y())));
   }
-  for (const int slot : {4, 5}) state.move_landmark(slot, {-50.0, 0.0});
+  for (const int slot : {4, 5}) state.move_landmark(slot, {-moved, 0.0});
   state.move_pose({0.1, 0.0, 0.0});
   return state;
 }
@@ -96,6 +99,26 @@ TEST(FirstEstimateFrame, LeversAreBetweenFirstEstimatesWhereTheseAreNearAndBetwe
   const std::optional<Pose2> other = state.other_linearisation_pose();
   ASSERT_TRUE(other);
   EXPECT_NEAR(other->x, 50.1, 1e-12);
+}
+
+// At 3 m, 0.5 m are ten standard deviations of a sighting, and a sixth of the lever.
+TEST(FirstEstimateFrame, IsAnotherOneAsSoonAsNoNoiseExplainsIt) {
+  EXPECT_TRUE(closed_loop(0.5).other_linearisation_pose());
+  EXPECT_FALSE(closed_loop(0.2).other_linearisation_pose());
+}
+
+TEST(FirstEstimateFrame, ALandmarkIsSettledOnceItHasALinkToAPassiveOne) {
+  for (const bool linked : {false, true}) {
+    InformationState state({.mean = {}, .covariance = 0.01 * Eigen::Matrix3d::Identity()});
+    state.use_first_estimates(5);
+    for (const int slot : {0, 1}) state.activate(state.add_landmark(slot, {3.0, 1.0 + slot}));
+    state.Omega().block<2, 2>(3, 5).setIdentity();
+    state.Omega().block<2, 2>(5, 3).setIdentity();
+    if (linked) state.deactivate(1);
+    state.move_landmark(0, {0.01, 0.0});
+    state.update_first_estimates();
+    EXPECT_DOUBLE_EQ(state.linearisation_point(0).x(), linked ? 3.0 : 3.01);
+  }
 }
 
 TEST(FirstEstimateFrame, NewLandmarksHaveTheirFirstEstimateWhereTheyAreFromThePoseAmongThem) {
