@@ -30,6 +30,10 @@ class AssociableFilter : public Estimator {
   virtual void covariance_with(std::span<const LandmarkId> landmarks,
                                Eigen::Ref<Eigen::MatrixXd> out) const = 0;
 
+  /// Whether nothing is ever learned of where in the world all of it lies: then the start's uncertainty is
+  /// part of every covariance, as one motion of robot and map.
+  virtual bool keeps_start_uncertainty() const { return false; }
+
   /// Others that ought to be at hand soon.
   virtual void want(std::span<const LandmarkId> /*landmarks*/) {}
 

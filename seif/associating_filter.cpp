@@ -33,6 +33,7 @@ double largest_variance(const Eigen::Matrix2d& covariance) {
 AssociatingFilter::AssociatingFilter(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
                                      const AssociationOptions& options)
     : filter_(std::move(filter)),
+      start_(setup.start),
       T_robot_sensor_(setup.T_robot_sensor),
       options_(options),
       matcher_(options.match_probability, options.new_probability),
@@ -90,8 +91,7 @@ void AssociatingFilter::refresh_grid() {
 /// Mostly all that is seen is known, and a few landmarks near each observation explain it. Otherwise as many
 /// as may have to be thought of.
 void AssociatingFilter::find_pairs(const Scan& scan) {
-  Eigen::Matrix3d P_x;
-  filter_->covariance_with({}, P_x);
+  const Eigen::Matrix3d P_x = pose_covariance_in_map();
   const std::size_t each = std::clamp(most_asked / std::max<std::size_t>(scan.observations.size(), 1),
                                       few_per_observation, most_per_observation);
   for (const std::size_t most : {few_per_observation, each}) {
@@ -99,6 +99,17 @@ void AssociatingFilter::find_pairs(const Scan& scan) {
     options_.jointly ? matcher_.match_jointly() : matcher_.match_nearest();
     if (matcher_.all_matched() || each == few_per_observation) return;
   }
+}
+
+/// Of the pose in the map: without what the start is uncertain of, which moves the map with the pose.
+Eigen::Matrix3d AssociatingFilter::pose_covariance_in_map() const {
+  Eigen::Matrix3d P_x;
+  filter_->covariance_with({}, P_x);
+  if (!filter_->keeps_start_uncertainty()) return P_x;
+  const Pose2 pose = filter_->pose();
+  Eigen::Matrix3d J_wrt_start = Eigen::Matrix3d::Identity();
+  J_wrt_start.topRightCorner<2, 1>() << start_.mean.y - pose.y, pose.x - start_.mean.x;
+  return P_x - J_wrt_start * start_.covariance * J_wrt_start.transpose();
 }
 
 void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most) {
@@ -128,7 +139,7 @@ void AssociatingFilter::gather_near(const Observation& observation, const Eigen:
   const Eigen::Matrix2d by_sensor =
       inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
   const Eigen::Matrix2d in_world = inverse.J_wrt_pose * P_x * inverse.J_wrt_pose.transpose() + by_sensor;
-  const double variance = largest_variance(in_world);
+  const double variance = std::max(largest_variance(in_world), largest_variance(by_sensor));
   seen_.push_back(
       {inverse.p_world_landmark, largest_variance(by_sensor), std::sqrt(variance * matcher_.gate())});
   // The landmark is taken to be known no worse than this.
@@ -324,7 +335,7 @@ std::vector<LandmarkEstimate> AssociatingFilter::map() const {
 
 /// Without those that are not in the map: marginalised out.
 Eigen::MatrixXd AssociatingFilter::whole_belief_matrix() const {
-  const Eigen::MatrixXd M = filter_->whole_belief_matrix();
+  Eigen::MatrixXd M = filter_->whole_belief_matrix();
   std::vector<int> kept = {0, 1, 2};
   std::vector<int> gone;
   int row = 3;

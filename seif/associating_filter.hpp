@@ -95,6 +95,7 @@ class AssociatingFilter final : public Estimator {
   void find_pairs(const Scan& scan);
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most);
   void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t most);
+  Eigen::Matrix3d pose_covariance_in_map() const;
   int number_of(LandmarkId id);
   bool want_near(const Seen& seen);
   void name(const Scan& scan);
@@ -108,6 +109,7 @@ class AssociatingFilter final : public Estimator {
   void widen_view(const Scan& scan);
 
   std::unique_ptr<AssociableFilter> filter_;
+  PoseEstimate start_;
   Pose2 T_robot_sensor_;
   AssociationOptions options_;
   ScanMatcher matcher_;

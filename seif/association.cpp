@@ -186,7 +186,7 @@ void ScanMatcher::search(std::size_t level, int pairs, double squared_distance) 
 /// Of the innovation of a candidate with those of the first `pairs` pairs, in cross_ (2 pairs x 2),
 /// multiplied by L^-1.
 void ScanMatcher::cross_covariances(const Candidate& c, int pairs) {
-  const auto k = static_cast<Eigen::Index>(2 * pairs);
+  const Eigen::Index k = 2 * Eigen::Index{pairs};
   for (int j = 0; j < pairs; ++j) {
     const int other = pairs_[static_cast<std::size_t>(j)];
     const auto response = responses_.middleCols<2>(2 * static_cast<Eigen::Index>(other));
@@ -203,7 +203,7 @@ void ScanMatcher::cross_covariances(const Candidate& c, int pairs) {
 /// positive definite.
 bool ScanMatcher::condition(const Candidate& c, int pairs, Eigen::Vector2d& v, Eigen::Matrix2d& S) {
   cross_covariances(c, pairs);
-  const auto k = static_cast<Eigen::Index>(2 * pairs);
+  const Eigen::Index k = 2 * Eigen::Index{pairs};
   v = c.expected.v;
   v -= cross_.topRows(k).transpose().lazyProduct(y_.head(k));
   S = c.S;
@@ -217,7 +217,7 @@ double ScanMatcher::extend(int i, int pairs) {
   Eigen::Vector2d v;
   Eigen::Matrix2d S;
   if (!condition(candidate(i), pairs, v, S)) return std::numeric_limits<double>::infinity();
-  const auto k = static_cast<Eigen::Index>(2 * pairs);
+  const Eigen::Index k = 2 * Eigen::Index{pairs};
   const Eigen::LLT<Eigen::Matrix2d> llt(S);
   L_.block(k, 0, 2, k) = cross_.topRows(k).transpose();
   L_.block<2, 2>(k, k) = llt.matrixL();

@@ -174,8 +174,8 @@ EstimatorType seif() {
       .min = 0,
       .max = 1000,
       .help =
-          "Scans after which a landmark's first estimate is settled, which fixes what the filter cannot "
-          "observe; 0: none [-]."};
+          "Scans after which a landmark's first estimate is settled at the latest, which fixes what the "
+          "filter cannot observe; 0: none [-]."};
   const OptionSpec relinearise_above{
       .key = "relinearise_above",
       .fallback = defaults.relinearise_above,

@@ -94,6 +94,27 @@ TEST_P(Associating, FindsEachLandmarkOfARingAgainAndAgain) {
   EXPECT_EQ(outcome.mapped(*filter).size(), static_cast<std::size_t>(landmarks));
 }
 
+// It moves the map with the pose, and where one lies on the other is as certain as before. Until a ring
+// closes, where levers are those of the means.
+TEST(AssociatingSeif, GivesTheSameNamesWhereverTheStartMayBe) {
+  RingDrive drive(400, 1);
+  EstimatorSetup uncertain = drive.setup();
+  uncertain.start.covariance *= 1e3;
+  std::vector<std::unique_ptr<AssociatingFilter>> filters;
+  for (const EstimatorSetup& setup : {drive.setup(), uncertain})
+    filters.push_back(std::make_unique<AssociatingFilter>(named_filter("seif", setup), setup,
+                                                          AssociationOptions{.jointly = true}));
+  for (int step = 0; step < drive.steps_for_a_round() - 20; ++step) {
+    drive.advance();
+    for (const auto& filter : filters) {
+      filter->motion_update(drive.odometry());
+      filter->measurement_update(nameless(drive.scan()), ignore);
+    }
+    ASSERT_TRUE(std::ranges::equal(filters[0]->associations(), filters[1]->associations()))
+        << "step " << step;
+  }
+}
+
 TEST_P(Associating, FalseDetectionsDoNotJoinTheMap) {
   RingDrive drive(60, 2);
   const auto filter = make(drive.setup());
