@@ -156,7 +156,7 @@ void minimise(ceres::Problem& problem) {
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // the same bits whatever BLAS there is
   options.initial_trust_region_radius = options.max_trust_region_radius;
   options.max_num_iterations = 200;
-  options.function_tolerance = 1e-12;  // [-] of the sum of squares: far below one standard deviation
+  options.function_tolerance = 1e-16;  // [-] of the sum of squares: until rounding, wherever it began
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
   options.num_threads = 1;
