@@ -6,6 +6,7 @@
 #include <random>
 
 #include "fixtures.hpp"
+#include "harness/csv_reader.hpp"
 #include "harness/log_stream.hpp"
 #include "seif/models.hpp"
 
@@ -103,6 +104,14 @@ TEST(Calibrate, ReturnsTheNoiseOfASimulatedWorld) {
             3.0 * found.standard_errors[2]);
   EXPECT_LT(std::abs(found.values[4] - range_sd), 3.0 * found.standard_errors[4]);
   EXPECT_LT(std::abs(found.values[6] - bearing_sd), 3.0 * found.standard_errors[6]);
+}
+
+TEST(ReadForCalibration, RefusesALogInWhichNoKnownLandmarkIsSeen) {
+  const TemporaryFolder folder;
+  test::run_live(test::small_world(), folder / "run");
+  test::write_file(folder / "run" / "landmarks.csv", "landmark,x,y,radius\n900,1,2,0.1\n");
+  LogStream log(folder / "run");
+  EXPECT_THROW(read_for_calibration(log), BadInput);
 }
 
 }  // namespace

@@ -118,6 +118,74 @@ TEST(CommandLine, AComparisonKeepsRunsThatReplayToTheSame) {
   EXPECT_EQ(ekf["ekf"]["nees_pose_final"], live["estimators"]["ekf"]["nees_pose_final"]);
 }
 
+TEST(CommandLine, AComparisonOfLogsTakesItsBaselineBesideTheEstimatorsThatItIsTold) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out run");
+  const nlohmann::json both = compare(folder, "run --estimators seif_report --baseline ekf");
+  EXPECT_EQ(both["baseline"], "ekf");
+  EXPECT_EQ(both["estimators"].size(), 2U);
+}
+
+TEST(CommandLine, LogsThatHaveNoBaselineInCommonAreNotCompared) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out one");
+  call(folder, "run world.yaml --quiet --out other --set 'estimators={seif_report: {}}'");
+  const Called called = call(folder, "compare one other");
+  EXPECT_EQ(called.exit_code, 2);
+  EXPECT_EQ(called.errors, "other: has no estimator 'ekf' to compare with\n");
+}
+
+TEST(CommandLine, AReplayRefusesWhatItCannotSet) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out run");
+  for (const auto& [arguments, complaint] : {
+           std::pair{"--set physics.engine=kinematic", "--set physics.engine=kinematic: a replay can set "},
+           std::pair{"--estimators walnut", "--estimators: there is no estimator 'walnut'"},
+           std::pair{"--set estimators.ekf.gate=walnut", "'gate' must be a number, not 'walnut'"},
+       }) {
+    for (const char* command : {"replay run ", "compare run "}) {
+      const Called called = call(folder, std::string(command) + arguments);
+      EXPECT_EQ(called.exit_code, 2) << command << arguments;
+      EXPECT_NE(called.errors.find(complaint), std::string::npos) << called.errors;
+    }
+  }
+}
+
+TEST(CommandLine, OnATerminalARunSaysHowFarItIsAndWipesThatAway) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::string script = "script --quiet --return --command '" SEIFBED_PROGRAM " ";
+  const Called run = test::call_program(folder, script + "run world.yaml --set duration_s=300' /dev/null");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find(" of 300.0 s, "), std::string::npos) << run.output;
+  const Called compared =
+      test::call_program(folder, script + "compare world.yaml --seeds 1..6 --set duration_s=60' /dev/null");
+  EXPECT_EQ(compared.exit_code, 0) << compared.output;
+  EXPECT_NE(compared.output.find(" of 6 runs, "), std::string::npos) << compared.output;
+  for (const Called* called : {&run, &compared})
+    EXPECT_LT(called->output.rfind(" s left"), called->output.rfind("\r\033[K")) << called->output;
+}
+
+TEST(CommandLine, AMeasurementThatIsNoneIsToldOnceAndCountedInTheFolder) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const Called run = call(folder,
+                          "run world.yaml --out run --set 'faults=[{kind: bad_observation, at_s: 3}, "
+                          "{kind: bad_observation, at_s: 6}]'");
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(run.errors.find("a measurement that is none was left out"),
+            run.errors.rfind("a measurement that is none was left out"));
+  EXPECT_TRUE(run.errors.starts_with("at 3")) << run.errors;
+  const auto summary = nlohmann::json::parse(read_file(folder / "run" / "summary.json"));
+  const Called score = call(folder, "score run --json");
+  EXPECT_EQ(score.exit_code, 0) << score.errors;
+  EXPECT_EQ(nlohmann::json::parse(score.output).at("left_out"), summary.at("left_out"));
+  EXPECT_NEAR(summary.at("left_out").at("first_s").get<double>(), 3.0, 0.5);
+}
+
 TEST(CommandLine, AComparisonLeavesNothingBehind) {
   const TemporaryFolder folder;
   write_world(folder);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "harness/command_call.hpp"
+#include "harness/csv_reader.hpp"
 #include "harness/exports/graph.hpp"
 #include "harness/exports/trajectories.hpp"
 #include "harness/fixtures.hpp"
@@ -187,6 +188,15 @@ TEST(G2o, TheOptimumFitsItsEdges) {
   const auto unknowns = static_cast<double>(3 * best.poses.size() + 2 * best.landmarks.size());
   EXPECT_GT(sum, count - unknowns - 5.0 * std::sqrt(2.0 * count));
   EXPECT_LT(sum, count + 5.0 * std::sqrt(2.0 * count));
+}
+
+TEST(ReadGraph, NeedsObservationsThatNameTheirLandmarks) {
+  const TemporaryFolder folder;
+  write_log(folder / "log");
+  std::string description = read_file(folder / "log" / "log.yaml");
+  description.replace(description.find("known"), 5, "unknown");
+  write_file(folder / "log" / "log.yaml", description);
+  EXPECT_THROW(read_graph(folder / "log", "filter"), BadInput);
 }
 
 TEST(TrajectoriesCsv, HasARowForEachUpdateAndEmptyCellsWhereNothingIsKnown) {

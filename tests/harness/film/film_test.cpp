@@ -235,6 +235,17 @@ TEST_F(FilmTest, ShowsEachEstimatorInAViewOfItsOwn) {
   EXPECT_LT(contrast(last, left + Vector2d(640.0, 0.0), ground), 8);
 }
 
+TEST_F(FilmTest, ShowsWallsAndGroundOfAnotherFriction) {
+  worlds::World world = bare_world(0.4);
+  world.walls = {{.points = {{-6.0, -5.0}, {-6.0, 5.0}}}};
+  world.physics.patches = {{.min = {4.0, 2.0}, .max = {6.0, 4.0}}};
+  const std::vector<render::Image> frames = film_live(world, folder_ / "run");
+  const Rgb8 ground = colour_at(frames.back(), 5, 5);
+  EXPECT_GT(contrast(frames.back(), pixel_of(world, {-6.0, 0.0}), ground), 8);
+  EXPECT_GT(contrast(frames.back(), pixel_of(world, {5.0, 3.0}), ground), 8);
+  EXPECT_LT(contrast(frames.back(), pixel_of(world, {5.0, -3.0}), ground), 8);
+}
+
 TEST_F(FilmTest, HasAFrameForEachStepOfSimulatedTime) {
   worlds::World world = bare_world(2.0);
   EXPECT_EQ(film_live(world, folder_ / "a").size(), 21U);

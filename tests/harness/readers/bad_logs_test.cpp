@@ -86,6 +86,42 @@ TEST_P(BadLogs, AreRefusedWithFileLineColumnAndReason) {
   }
 }
 
+/// The complaint about a log, without its path; empty if it is taken.
+std::string complaint_about(const LogChoice& choice) {
+  try {
+    read_all(*open_log(choice));
+  } catch (const BadInput& error) {
+    return std::string(error.what()).substr(choice.path.string().size());
+  }
+  return "";
+}
+
+TEST(OpenLog, RefusesWhatIsOfNoFormatAndChoicesThatAreForOthers) {
+  const TemporaryFolder folder;
+  write_files(folder.path(), isam_files());
+  write_file(folder / "empty.txt", "");
+  EXPECT_EQ(complaint_about({.path = folder / "empty.txt", .format = "graph"}), ": there is no motion in it");
+  EXPECT_NE(complaint_about({.path = folder / "empty.txt"}).find("is empty"), std::string::npos);
+  const std::filesystem::path graph = folder / "graph.txt";
+  EXPECT_EQ(complaint_about({.path = graph, .robot = 2}), ": --robot is for MRCLAM folders");
+  EXPECT_NE(complaint_about({.path = graph, .format = "walnut"}).find("no log format 'walnut'"),
+            std::string::npos);
+  write_files(folder / "course", freiburg_files());
+  EXPECT_EQ(complaint_about({.path = folder / "course", .truth = graph}), ": --truth is for graphs");
+}
+
+TEST(GraphTruth, MustHaveTheMotionsOfTheLog) {
+  const TemporaryFolder folder;
+  write_files(folder.path(), isam_files());
+  write_file(folder / "truth.txt", "ODOMETRY 0 1 1 0 0 50 0 0 50 0 100\n");
+  try {
+    read_all(*open_log({.path = folder / "graph.txt", .truth = folder / "truth.txt"}));
+    FAIL() << "it was taken";
+  } catch (const BadInput& error) {
+    EXPECT_STREQ(error.what(), "the truth has no motion from pose 1 to pose 2 where the log has one");
+  }
+}
+
 /// Some bytes of a text changed, taken out or doubled.
 std::string mutated(std::string text, std::mt19937& random) {
   const std::string bytes = "0123456789.-+e naif\n\t#,:EL\xff";

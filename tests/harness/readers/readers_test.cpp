@@ -66,6 +66,36 @@ TEST(MrclamLog, CountsNonsenseAndGoesOn) {
   EXPECT_EQ(log->counts().negative_ranges, 1);
 }
 
+TEST(FreiburgLog, CountsNonsenseAndGoesOn) {
+  const TemporaryFolder folder;
+  Files files = freiburg_files();
+  files["sensor_data.dat"] += "ODOMETRY 0 0.5 0\nSENSOR 1 nan 0\nSENSOR 2 2.0 inf\nSENSOR 2 1.9 -0.9\n";
+  const auto log = open(folder, files);
+  const std::vector<Event> events = read_all(*log);
+  EXPECT_EQ(scan(events.back()).scan.observations.size(), 1U);
+  EXPECT_EQ(log->counts().not_finite, 2);
+  EXPECT_EQ(log->counts().negative_ranges, 1);
+}
+
+TEST(VictoriaParkLog, CountsNonsenseAndGoesOn) {
+  const TemporaryFolder folder;
+  Files files = victoria_park_files();
+  files["derived_tree_detections.txt"] += "1 11.0 -4 0.9 0.3\n";
+  const auto log = open(folder, files);
+  const std::size_t events = read_all(*log).size();
+  EXPECT_EQ(log->counts().negative_ranges, 1);
+  EXPECT_EQ(events, read_all(*open(folder, victoria_park_files())).size());
+}
+
+TEST(G2oGraph, CountsLandmarksThatAreNowhereAndGoesOn) {
+  const TemporaryFolder folder;
+  Files files = g2o_files();
+  files["graph.g2o"] += "EDGE_SE2_XY 5 10 nan 1 100 0 100\n";
+  const auto log = open(folder, files);
+  EXPECT_EQ(scan(read_all(*log).back()).scan.observations.size(), 1U);
+  EXPECT_EQ(log->counts().not_finite, 1);
+}
+
 TEST(MrclamLog, HasNoTruthInGapsAndStartsAtTheTruth) {
   const TemporaryFolder folder;
   Files files = mrclam_files();

@@ -63,5 +63,18 @@ TEST(FigurePlot, SaysWhatIsMissing) {
   EXPECT_TRUE(contains(complaint, "gnuplot-nox")) << complaint;
 }
 
+TEST(FigurePlot, SaysWhatGnuplotSays) {
+  const TemporaryFolder folder;
+  const std::string complaint = draw(figure_of("seif"), folder / "nowhere");
+  EXPECT_TRUE(complaint.starts_with("no plot: gnuplot says: ")) << complaint;
+  EXPECT_TRUE(contains(complaint, "nowhere")) << complaint;
+}
+
+TEST(FigurePlot, GoesWithoutAPictureInAFolderThatGnuplotCannotName) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "two\nlines");
+  EXPECT_TRUE(contains(draw(figure_of("seif"), folder / "two\nlines"), "a folder with such a name"));
+}
+
 }  // namespace
 }  // namespace harness

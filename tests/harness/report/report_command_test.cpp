@@ -113,12 +113,30 @@ TEST_F(ReportCommand, WritesAPageOfAStressTest) {
   EXPECT_EQ(call(folder, "report stressed").exit_code, 2);
 }
 
+TEST_F(ReportCommand, ListsWhatFailed) {
+  call(folder, "sweep world.yaml --seeds 1..2 --out swept --quiet");
+  test::write_file(folder / "swept" / "cells" / "000001.failed", "ended by signal 9 (Killed)");
+  std::filesystem::remove(folder / "swept" / "cells" / "000001.json");
+  report("swept");
+  const std::string html = read_file(folder / "swept" / "report.html");
+  EXPECT_TRUE(contains(html, "What failed"));
+  EXPECT_TRUE(contains(html, "ended by signal 9 (Killed)"));
+}
+
+TEST_F(ReportCommand, HasTheErrorsAfterLoopClosures) {
+  ASSERT_EQ(call(folder, "run world.yaml --out run --quiet --set duration_s=120").exit_code, 0);
+  report("run --no-replay");
+  EXPECT_TRUE(contains(read_file(folder / "run" / "report.html"), "after a loop closure"));
+}
+
 TEST_F(ReportCommand, SaysWhatIsWrong) {
   const Called nothing = call(folder, "report .");
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_TRUE(contains(nothing.errors, "no folder of a run")) << nothing.errors;
   run();
-  EXPECT_EQ(call(folder, "report run --chart-js nowhere.js").exit_code, 1);
+  const Called missing = call(folder, "report run --chart-js nowhere.js");
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_EQ(missing.errors, "seifbed: cannot read nowhere.js: No such file or directory\n");
 }
 
 class ReportInBrowser : public ReportCommand {

@@ -198,6 +198,14 @@ TEST_F(ScoreCommand, PrintsTables) {
     EXPECT_NE(board.find(part), std::string::npos) << board;
 }
 
+TEST_F(ScoreCommand, PrintsTheErrorsAfterLoopClosures) {
+  EXPECT_NE(test::call(folder, "score run").output.find("No loop closes."), std::string::npos);
+  ASSERT_EQ(test::call(folder, "run world.yaml --out long --quiet --set duration_s=120").exit_code, 0);
+  const std::string closed = test::call(folder, "score long").output;
+  EXPECT_NE(closed.find(" closures\n"), std::string::npos) << closed;
+  EXPECT_EQ(closed.find("No loop closes."), std::string::npos) << closed;
+}
+
 TEST_F(ScoreCommand, BadInputEndsWithCodeTwo) {
   for (const char* arguments : {"score nothing", "score run --rpe-m 0", "score run --away-s -1", "score",
                                 "score run --reference best", "score run --every-update --no-replay"})

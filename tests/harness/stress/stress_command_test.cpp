@@ -36,6 +36,22 @@ TEST(StressCommand, TakesOptionsOfEstimators) {
   EXPECT_EQ(row["estimators"]["tree"]["landmarks"], 100);
 }
 
+TEST(StressCommand, AFilterIsLeftOutOfWorldsAboveItsLimitAndTheReportSaysSo) {
+  const TemporaryFolder folder;
+  const Called called = call(folder,
+                             "stress --landmarks 100,150 --estimators seif,ekf --limit ekf=100 --updates 10 "
+                             "--json --out out");
+  ASSERT_EQ(called.exit_code, 0) << called.errors;
+  const nlohmann::json rows = nlohmann::json::parse(called.output)["rows"];
+  EXPECT_TRUE(rows[0]["estimators"]["ekf"]["skipped"].is_null());
+  EXPECT_TRUE(rows[1]["estimators"]["ekf"]["skipped"].is_string());
+  EXPECT_TRUE(rows[1]["estimators"]["seif"]["skipped"].is_null());
+  ASSERT_EQ(call(folder, "report out").exit_code, 0);
+  EXPECT_NE(test::read_file(folder / "out/report.html")
+                .find("150, ekf: " + rows[1]["estimators"]["ekf"]["skipped"].get<std::string>()),
+            std::string::npos);
+}
+
 TEST(StressCommand, RefusesWhatItCannotDo) {
   const TemporaryFolder folder;
   EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf").exit_code, 2);

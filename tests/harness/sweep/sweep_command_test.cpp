@@ -138,6 +138,31 @@ TEST(SweepCommand, ShardsInAnyOrderMergeToTheWhole) {
   EXPECT_EQ(differing(folder, "again", one), none);
 }
 
+TEST(SweepCommand, AFailureIsMergedUnlessTheRunIsThereToo) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::map<std::string, std::string> one = whole(folder);
+  for (const char* shard : {"1", "2"})
+    call(folder, std::string(arguments) + "--quiet --shard " + shard + "/2 --out part" + shard);
+  std::filesystem::copy(folder / "part1", folder / "failed", std::filesystem::copy_options::recursive);
+  std::filesystem::rename(folder / "failed/cells/000004.json", folder / "failed/cells/000004.failed");
+  const Called failed = call(folder, "merge failed part2 --out all");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.output.find("16 runs, 1 of them failed"), std::string::npos) << failed.output;
+  EXPECT_EQ(call(folder, "merge failed part1 part2 --out mended --quiet").exit_code, 0);
+  EXPECT_EQ(differing(folder, "mended", one), none);
+}
+
+TEST(SweepCommand, AShardDoesNotAnswerForWhatFailedInAnother) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  const std::string shard = std::string(arguments) + "--out shared --quiet --shard ";
+  EXPECT_EQ(call(folder, shard + "1/4").exit_code, 0);
+  write_file(folder / "shared/cells/000001.failed", "ended by signal 9 (Killed)");
+  EXPECT_EQ(call(folder, shard + "1/4").exit_code, 0);
+  EXPECT_EQ(call(folder, "sweep --status shared").exit_code, 1);
+}
+
 TEST(SweepCommand, ShardsMayShareAFolder) {
   const TemporaryFolder folder;
   write_world(folder);
