@@ -112,9 +112,10 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 
 std::string read_whole_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
+  const int error = file.is_open() ? EIO : errno;
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file)
-    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
+    throw std::system_error(error, std::generic_category(), fmt::format("cannot read {}", path.string()));
   return text;
 }
 
@@ -149,13 +150,8 @@ CsvWriter& CsvWriter::value(std::int64_t number) {
   return *this;
 }
 
-CsvWriter& CsvWriter::empty() {
-  separate();
-  return *this;
-}
-
-CsvWriter& CsvWriter::empty(int cells) {
-  for (int i = 0; i < cells; ++i) empty();
+CsvWriter& CsvWriter::leave_empty(int cells) {
+  for (int i = 0; i < cells; ++i) separate();
   return *this;
 }
 

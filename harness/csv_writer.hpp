@@ -57,8 +57,7 @@ class CsvWriter {
 
   CsvWriter& value(double number);
   CsvWriter& value(std::int64_t number);
-  CsvWriter& empty();
-  CsvWriter& empty(int cells);
+  CsvWriter& leave_empty(int cells = 1);
   void end_row();
 
   void flush() { file_.flush(); }

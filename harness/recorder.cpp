@@ -16,7 +16,7 @@ void write_covariance(CsvWriter& file, const Matrix& covariance) {
 }
 
 void write_if_known(CsvWriter& file, const std::optional<double>& number) {
-  number ? file.value(*number) : file.empty();
+  number ? file.value(*number) : file.leave_empty();
 }
 
 void write_landmarks(const std::filesystem::path& path, std::span<const TrueLandmark> landmarks) {
@@ -92,15 +92,15 @@ void Recorder::odometry(const OdometryEvent& event) {
 void Recorder::scan(const ScanEvent& event) {
   const std::vector<seif::Observation>& observations = event.scan.observations;
   if (observations.empty()) {
-    observations_.value(event.scan.t).empty(6).end_row();
-    if (true_ids_) true_ids_->value(event.scan.t).empty().end_row();
+    observations_.value(event.scan.t).leave_empty(6).end_row();
+    if (true_ids_) true_ids_->value(event.scan.t).leave_empty().end_row();
   }
   for (std::size_t i = 0; i < observations.size(); ++i) {
     observation(event.scan.t, observations[i]);
     if (!true_ids_) continue;
     true_ids_->value(event.scan.t);
     const seif::LandmarkId true_id = event.true_ids.at(i);
-    true_id == seif::no_landmark ? true_ids_->empty() : true_ids_->value(std::int64_t{true_id});
+    true_id == seif::no_landmark ? true_ids_->leave_empty() : true_ids_->value(std::int64_t{true_id});
     true_ids_->end_row();
   }
   truth(event.truth);
@@ -108,7 +108,7 @@ void Recorder::scan(const ScanEvent& event) {
 
 void Recorder::observation(double t, const seif::Observation& observation) {
   observations_.value(t);
-  observation.landmark == seif::no_landmark ? observations_.empty()
+  observation.landmark == seif::no_landmark ? observations_.leave_empty()
                                             : observations_.value(std::int64_t{observation.landmark});
   observations_.value(observation.range).value(observation.bearing);
   write_covariance(observations_, observation.covariance);
@@ -128,12 +128,12 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
     files.steps.value(record.est_pose.x - record.true_pose->x).value(record.est_pose.y - record.true_pose->y);
     files.steps.value(seif::wrap_angle(record.est_pose.theta - record.true_pose->theta));
   } else {
-    files.steps.empty(3);
+    files.steps.leave_empty(3);
   }
   if (record.est_covariance) {
     write_covariance(files.steps, *record.est_covariance);
   } else {
-    files.steps.empty(6);
+    files.steps.leave_empty(6);
   }
   files.steps.value(record.blocks_touched)
       .value(std::int64_t{record.active_landmarks})
@@ -156,10 +156,10 @@ void Recorder::associations(EstimatorFiles& files, const UpdateRecord& record) c
   if (!files.associations)
     files.associations.emplace(folder_ / (files.name + "_associations.csv"), "t,landmark");
   CsvWriter& file = *files.associations;
-  if (record.associations->empty()) file.value(record.t).empty().end_row();
+  if (record.associations->empty()) file.value(record.t).leave_empty().end_row();
   for (const seif::LandmarkId name : *record.associations) {
     file.value(record.t);
-    name == seif::no_landmark ? file.empty() : file.value(std::int64_t{name});
+    name == seif::no_landmark ? file.leave_empty() : file.value(std::int64_t{name});
     file.end_row();
   }
 }
@@ -181,7 +181,7 @@ void Recorder::map(std::size_t estimator, std::span<const MapRecord> landmarks) 
     if (landmark.covariance) {
       write_covariance(file, *landmark.covariance);
     } else {
-      file.empty(3);
+      file.leave_empty(3);
     }
     file.end_row();
   }

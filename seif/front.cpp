@@ -169,8 +169,8 @@ void Front::add_product(const Target& i, const Target& j, double value, bool dia
 
 void Front::add_blocks(const Condensed& part) {
   for (const Condensed::Block& block : part.S_blocks) {
-    const Target* const rows = &targets_[static_cast<std::size_t>(2 * block.i)];
-    const Target* const cols = &targets_[static_cast<std::size_t>(2 * block.j)];
+    const Target* const rows = &targets_[2 * static_cast<std::size_t>(block.i)];
+    const Target* const cols = &targets_[2 * static_cast<std::size_t>(block.j)];
     const bool diagonal = block.i == block.j;
     for (int a = 0; a < 2; ++a) {
       for (int b = 0; b < (diagonal ? a + 1 : 2); ++b) {

@@ -3,8 +3,8 @@
 
 #include <cstddef>  // defines __GLIBC__
 
-// The address sanitizer has a malloc of its own.
-#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+// The sanitizers of addresses and threads have a malloc of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
 #define COUNTS_ALLOCATIONS 0
 #else
 #define COUNTS_ALLOCATIONS 1

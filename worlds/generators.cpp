@@ -44,7 +44,9 @@ Candidate grid_candidate(const Generator& generator, std::mt19937_64& random) {
   const Eigen::Vector2d corner = 0.5 * (generator.min + generator.max - size);
   const auto columns = static_cast<std::int64_t>(cells.x());
   return [=, &generator, &random](std::int64_t index) {
-    const Eigen::Array2d cell(static_cast<double>(index % columns), static_cast<double>(index / columns));
+    const std::int64_t column = index % columns;
+    const std::int64_t row = index / columns;
+    const Eigen::Array2d cell(static_cast<double>(column), static_cast<double>(row));
     return jittered(corner + (cell + 0.5).matrix().cwiseProduct(generator.cell), generator.jitter, random);
   };
 }
@@ -94,8 +96,9 @@ Candidate corridor_candidate(const Generator& generator, const World& world, std
   std::vector<Eigen::Vector2d> places;
   std::size_t leg = 0;
   double leg_start = 0.0;  // along the line
-  for (double k = 0; k < corridor_places(generator, line); ++k) {
-    const double at = (k + 0.5) * generator.spacing;
+  const auto places_on_a_side = static_cast<std::int64_t>(corridor_places(generator, line));
+  for (std::int64_t k = 0; k < places_on_a_side; ++k) {
+    const double at = (static_cast<double>(k) + 0.5) * generator.spacing;
     double extent = (segments[leg].to - segments[leg].from).norm();
     for (; at > leg_start + extent && leg + 1 < segments.size(); ++leg) {
       leg_start += extent;

@@ -63,9 +63,11 @@ Axis axis_of(const Chart& chart) {
     return axis;
   }
   const double smallest = extreme(chart, &Series::smallest, false).value_or(1.0);
-  axis.bottom = std::pow(10.0, std::min(0.0, std::floor(std::log10(std::max(smallest, 1e-3)))));
-  axis.top = std::pow(10.0, std::max(2.0, std::ceil(std::log10(std::max(largest, 1e-3)))));
-  for (double tick = axis.bottom; tick <= axis.top * 1.001; tick *= 10.0) axis.ticks.push_back(tick);
+  const int lowest = std::min(0, static_cast<int>(std::floor(std::log10(std::max(smallest, 1e-3)))));
+  const int highest = std::max(2, static_cast<int>(std::ceil(std::log10(std::max(largest, 1e-3)))));
+  for (int decade = lowest; decade <= highest; ++decade) axis.ticks.push_back(std::pow(10.0, decade));
+  axis.bottom = axis.ticks.front();
+  axis.top = axis.ticks.back();
   return axis;
 }
 

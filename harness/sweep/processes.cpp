@@ -24,13 +24,13 @@ class ChildSignalBlock {
     std::signal(SIGCHLD, SIG_DFL);
     sigemptyset(&child_);
     sigaddset(&child_, SIGCHLD);
-    sigprocmask(SIG_BLOCK, &child_, &before_);
+    pthread_sigmask(SIG_BLOCK, &child_, &before_);
   }
   ~ChildSignalBlock() { lift(); }
   ChildSignalBlock(const ChildSignalBlock&) = delete;
   ChildSignalBlock& operator=(const ChildSignalBlock&) = delete;
 
-  void lift() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  void lift() const { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
   /// Until a child ends, any other signal comes, or a while has passed.
   void wait() const {
@@ -104,7 +104,8 @@ class Processes {
 
 std::string to_string(const ProcessEnd& end) {
   if (end.exit_code) return fmt::format("ended with exit code {}", *end.exit_code);
-  return fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
+  const char* description = sigdescr_np(end.signal);
+  return fmt::format("ended by signal {} ({})", end.signal, description ? description : "unknown");
 }
 
 void run_in_processes(std::span<const std::size_t> jobs, int at_once, const std::atomic<bool>& stop,

@@ -103,8 +103,9 @@ std::vector<std::size_t> cells_to_run(const SweepFolder& sweep, const Shard& sha
 
 Shard parse_shard(std::string_view text) {
   Shard shard;
-  const char* end = text.data() + text.size();
-  const auto [slash, error] = std::from_chars(text.data(), end, shard.number);
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  const auto [slash, error] = std::from_chars(begin, end, shard.number);
   const bool has_slash = error == std::errc() && slash != end && *slash == '/';
   const auto [rest, of_error] = std::from_chars(has_slash ? slash + 1 : end, end, shard.of);
   if (!has_slash || of_error != std::errc() || rest != end || shard.number < 1 || shard.number > shard.of)

@@ -65,8 +65,8 @@ Mesh cylinder_mesh(int sides, Bottom bottom) {
     mesh.vertices.push_back({{0.5F * x, 0.5F * y, 0.5F}, {x, y, 0.0F}});
   }
   for (int side = 0; side < sides; ++side) {
-    const auto low = static_cast<std::size_t>(2 * side);
-    const auto next = static_cast<std::size_t>(2 * ((side + 1) % sides));
+    const auto low = 2 * static_cast<std::size_t>(side);
+    const auto next = 2 * static_cast<std::size_t>((side + 1) % sides);
     add_triangle(mesh, low, next, next + 1);
     add_triangle(mesh, low, next + 1, low + 1);
   }
