@@ -10,7 +10,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "seif/models.hpp"
 
@@ -156,7 +159,7 @@ void minimise(ceres::Problem& problem) {
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // the same bits whatever BLAS there is
   options.initial_trust_region_radius = options.max_trust_region_radius;
   options.max_num_iterations = 200;
-  options.function_tolerance = 1e-16;  // [-] of the sum of squares: until rounding, wherever it began
+  options.function_tolerance = 1e-12;  // [-] of the sum of squares: far below one standard deviation
   options.parameter_tolerance = 1e-14;
   options.gradient_tolerance = 1e-14;
   options.num_threads = 1;
@@ -167,20 +170,53 @@ void minimise(ceres::Problem& problem) {
     throw std::runtime_error("batch: no optimum was found: " + summary.message);
 }
 
-/// The lower triangle of J' J, rows as in FullSlam.
-Eigen::SparseMatrix<double> information(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem) {
+/// All unknowns, rows as in FullSlam.
+ceres::Problem::EvaluateOptions all_of(Unknowns& unknowns) {
   ceres::Problem::EvaluateOptions options;
-  for (int i = 0; i < slam.pose_count(); ++i) options.parameter_blocks.push_back(unknowns.pose(i));
-  for (int i = 0; i < slam.landmark_count; ++i) options.parameter_blocks.push_back(unknowns.landmark(i));
+  for (Eigen::Vector3d& pose : unknowns.poses) options.parameter_blocks.push_back(pose.data());
+  for (Eigen::Vector2d& landmark : unknowns.landmarks) options.parameter_blocks.push_back(landmark.data());
+  return options;
+}
+
+/// The terms linearised: the lower triangle of J' J, and J' times the residuals.
+struct NormalEquations {
+  Eigen::SparseMatrix<double> Omega;
+  Eigen::VectorXd gradient;
+};
+
+NormalEquations linearise(Unknowns& unknowns, ceres::Problem& problem) {
   ceres::CRSMatrix J;
-  if (!problem.Evaluate(options, nullptr, nullptr, nullptr, &J))
+  std::vector<double> gradient;
+  if (!problem.Evaluate(all_of(unknowns), nullptr, nullptr, &gradient, &J))
     throw std::runtime_error("batch: the Jacobian at the optimum cannot be evaluated");
   const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> rows(
       J.num_rows, J.num_cols, static_cast<Eigen::Index>(J.values.size()), J.rows.data(), J.cols.data(),
       J.values.data());
   const Eigen::SparseMatrix<double> columns = rows;
   const Eigen::SparseMatrix<double> Omega = columns.transpose() * columns;
-  return Omega.triangularView<Eigen::Lower>();
+  return {Omega.triangularView<Eigen::Lower>(),
+          Eigen::Map<const Eigen::VectorXd>(gradient.data(), static_cast<Eigen::Index>(gradient.size()))};
+}
+
+/// Gauss and Newton's steps from what is nearly the optimum, for as long as they shrink: until rounding, so
+/// that nothing depends on where the search began. A solver that compares sums of squares cannot tell so
+/// small steps from none. Returns J' J.
+Eigen::SparseMatrix<double> refine(Unknowns& unknowns, ceres::Problem& problem) {
+  double before = std::numeric_limits<double>::infinity();
+  while (true) {
+    NormalEquations at = linearise(unknowns, problem);
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt(at.Omega);
+    if (llt.info() != Eigen::Success) throw std::runtime_error("batch: the optimum is not a definite one");
+    const Eigen::VectorXd step = -llt.solve(at.gradient);
+    const double length = -at.gradient.dot(step);  // [-] squared, in standard deviations
+    if (!(length < 0.5 * before)) return std::move(at.Omega);
+    before = length;
+    const double* next = step.data();
+    for (Eigen::Vector3d& pose : unknowns.poses)
+      pose += Eigen::Map<const Eigen::Vector3d>(std::exchange(next, next + 3));
+    for (Eigen::Vector2d& landmark : unknowns.landmarks)
+      landmark += Eigen::Map<const Eigen::Vector2d>(std::exchange(next, next + 2));
+  }
 }
 
 }  // namespace
@@ -244,10 +280,10 @@ FullSlamOptimum optimum(const FullSlam& slam, std::span<const seif::Pose2> poses
   minimise(problem);
 
   FullSlamOptimum result;
+  result.Omega = refine(unknowns, problem);
   for (const Eigen::Vector3d& x : unknowns.poses)
     result.poses.push_back({x.x(), x.y(), seif::wrap_angle(x.z())});
   result.landmarks = unknowns.landmarks;
-  result.Omega = information(slam, unknowns, problem);
   return result;
 }
 
