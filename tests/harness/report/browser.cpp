@@ -31,22 +31,28 @@ std::optional<std::string> find_browser(const TemporaryFolder& folder) {
 std::string look_at(const TemporaryFolder& folder, const std::string& browser,
                     const std::filesystem::path& page, const std::string& script, const Screen& screen) {
   std::string html = read_file(page);
-  html.insert(html.rfind("</body>"), fmt::format(R"(<pre id="looked"></pre><script>
+  // A page with a frame that is still being written has not been loaded yet, and what is dumped is a loaded
+  // page: it waits for the script in real time. In virtual time, frames may never come.
+  html.insert(html.rfind("</body>"),
+              fmt::format(R"(<pre id="looked"></pre><iframe id="looking" hidden></iframe><script>
+const looking = document.getElementById("looking").contentDocument;
+looking.open();
 const result = {{}};
 const until = async (condition) => {{
   for (let frame = 0; frame < 300 && !condition(); ++frame) await new Promise(requestAnimationFrame);
 }};
 (async () => {{
 {}
-}})().then(() => document.getElementById("looked").textContent = btoa(JSON.stringify(result)));
+}})().then(() => document.getElementById("looked").textContent = btoa(JSON.stringify(result)))
+  .catch(console.error).finally(() => looking.close());
 </script>)",
-                                                 script));
+                          script));
   write_file(folder / "looked.html", html);
   const Called called = call_program(
       folder,
       fmt::format("{} --headless --no-sandbox --disable-gpu --user-data-dir=profile --window-size={},900 "
                   "--blink-settings=preferredColorScheme={} --enable-logging=stderr "
-                  "--virtual-time-budget=20000 --dump-dom looked.html",
+                  "--dump-dom looked.html",
                   browser, screen.width, screen.is_dark ? 0 : 1));
   const std::string looked = between(called.output, "<pre id=\"looked\">", "</pre>");
   if (looked.empty()) throw std::runtime_error("the page told nothing: " + called.errors);
