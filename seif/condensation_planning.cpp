@@ -17,13 +17,13 @@ void CondensationTree::note_travel(const InformationState& state) {
   last_middle_ = now;
 }
 
-/// In how many slices a plan is made ready: half of the updates in which the robot comes to see what has
-/// called for it.
+/// In how many slices a plan is made ready: a third of the updates in which the robot comes to see what has
+/// called for it. So most updates work on none, in maps of any size.
 int CondensationTree::slices() const {
   constexpr double least = 4.0;
   constexpr double most = 64.0;
   const double updates = options_.zone_before * view_ / std::max(travel_, 1e-9);
-  return static_cast<int>(std::clamp(0.5 * updates, least, most));
+  return static_cast<int>(std::clamp(updates / 3.0, least, most));
 }
 
 /// False if the zone may stay as it is. Otherwise plan_.hot_leaves are those of the landmarks that are active
