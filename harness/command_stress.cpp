@@ -42,6 +42,8 @@ void read_limits(StressArguments& arguments) {
 int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   StressPlan& plan = arguments.plan;
   read_limits(arguments);
+  if (plan.places > plan.updates)
+    throw BadInput(fmt::format("--places: {} places for {} updates", plan.places, plan.updates));
   const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));
   plan.world.pattern = static_cast<StressPattern>(pattern - stress_pattern_names.begin());
   plan.world.estimators = arguments.estimators;
@@ -77,6 +79,11 @@ void add_options(CLI::App& command, StressArguments& arguments) {
   command.add_option("--updates", plan.updates, "Updates that are measured, five in a simulated second")
       ->check(CLI::Range(10, 10'000'000))
       ->capture_default_str();
+  command
+      .add_option("--places", plan.places,
+                  "Places along a second round that share these updates; 1: where the warm start has ended")
+      ->check(CLI::Range(1, 1'000))
+      ->capture_default_str();
   command.add_option("--pattern", arguments.pattern, "serpentine, ring or forest")
       ->check(
           CLI::IsMember(std::vector<std::string>(stress_pattern_names.begin(), stress_pattern_names.end())))
@@ -106,7 +113,8 @@ void add_stress(CommandLine line) {
       "  seifbed stress --pattern forest --set estimators.seif.theta_x=16\n"
       "  seifbed stress --landmarks 100,1000 --json | jq .slopes\n"
       "Each filter first maps its world with the engine without contacts; then the same filter goes on live\n"
-      "in Bullet, and that is measured. docs/stress.md describes the tables.");
+      "in Bullet, here and there on a second round, and that is measured. docs/stress.md describes the "
+      "tables.");
   auto arguments = std::make_shared<StressArguments>();
   add_options(*command, *arguments);
   command->callback([=, &registry = line.registry, &code = line.exit_code] {

@@ -155,10 +155,11 @@ std::string stress_tables(const StressPlan& plan, const StressResult& result) {
   return fmt::format(
       "{}, {} landmarks for each square metre, seed {}, {} updates measured after a warm start: each filter\n"
       "has first mapped the world with the engine without contacts, on the same sensors and rates; then the\n"
-      "same filter goes on live in Bullet, and is recorded.\n\n{}\n{}\n{}\n{}",
+      "same filter goes on live in Bullet, at {} places along a second round, and is "
+      "recorded.\n\n{}\n{}\n{}\n{}",
       stress_pattern_names.at(static_cast<std::size_t>(plan.world.pattern)), plan.world.density,
-      plan.world.seed, plan.updates, time_table(result), whole_table(result), estimator_table(result),
-      slope_table(result));
+      plan.world.seed, plan.updates, plan.places, time_table(result), whole_table(result),
+      estimator_table(result), slope_table(result));
 }
 
 std::string to_json(const StressPlan& plan, const StressResult& result) {
@@ -166,6 +167,7 @@ std::string to_json(const StressPlan& plan, const StressResult& result) {
   json["pattern"] = stress_pattern_names.at(static_cast<std::size_t>(plan.world.pattern));
   json["density_per_m2"] = plan.world.density;
   json["seed"] = plan.world.seed;
+  json["places"] = plan.places;
   json["version"] = program_version();
   json["interrupted"] = result.interrupted;
   json["rows"] = Json::array();

@@ -5,8 +5,8 @@
 
 namespace harness {
 
-TimedSimulator::TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double> room)
-    : simulator_(std::move(simulator)), step_us_(std::move(room)) {}
+TimedSimulator::TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double>& step_us)
+    : simulator_(std::move(simulator)), step_us_(step_us) {}
 
 void TimedSimulator::step(const sim::Command& command) {
   using Clock = std::chrono::steady_clock;

@@ -11,8 +11,8 @@ namespace harness {
 /// Does what another one does, and notes how long each physics step took.
 class TimedSimulator final : public sim::Simulator {
  public:
-  /// `room` is empty; with a capacity for all steps, noting them allocates nothing.
-  explicit TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double> room = {});
+  /// `step_us` gets the time of each step; with a capacity for all of them, noting them allocates nothing.
+  TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double>& step_us);
 
   void step(const sim::Command& command) override;
 
@@ -30,12 +30,9 @@ class TimedSimulator final : public sim::Simulator {
   }
   sim::SimulatorCounts counts() const override { return simulator_->counts(); }
 
-  /// Of each step so far. [us]
-  const std::vector<double>& step_us() const { return step_us_; }
-
  private:
   std::unique_ptr<sim::Simulator> simulator_;
-  std::vector<double> step_us_;
+  std::vector<double>& step_us_;
 };
 
 }  // namespace harness

@@ -55,12 +55,14 @@ class Round final : public RunListener {
 };
 
 /// The same world for an engine that needs no more steps than there are odometry readings.
-worlds::World without_contacts(worlds::World world, double length) {
+worlds::World without_contacts(worlds::World world, double duration) {
   world.physics.engine = worlds::Engine::kinematic;
   world.physics.step_rate = world.encoders.rate;
-  world.duration = 60.0 + 1.5 * length / world.drive.speed;  // more than turning in place takes
+  world.duration = duration;
   return world;
 }
+
+constexpr worlds::Scoring never{.interval = 1e9};
 
 void give_up_if_slow(Believers& believers, const Round& round, double slowest_ms) {
   for (std::size_t i = 0; i < believers.estimators.size(); ++i) {
@@ -85,10 +87,10 @@ WarmStart warm_start(const worlds::World& world, const seif::Registry& registry,
                      const WarmStartLimits& limits, const std::atomic<bool>& stop,
                      const std::function<void(double t)>& progress) {
   WarmStart warm{.believers = std::make_unique<Believers>(), .given_up = {}, .T_world_robot = {}};
-  SimulatedStream stream(without_contacts(world, limits.length), {});
+  const double more_than_turning_takes = 60.0 + 1.5 * limits.length / world.drive.speed;  // [s]
+  SimulatedStream stream(without_contacts(world, more_than_turning_takes), {});
   warm.believers->estimators = make_estimators(registry, world.estimators, stream.description(), world.seed);
   Round round(world, world.estimators.size());
-  const worlds::Scoring never{.interval = 1e9};
   LiveLoop loop(stream, *warm.believers, {&round}, stream.description(), never);
   std::atomic<bool> done = false;
   loop.run(done, [&](const LoopCounts& counts) {
@@ -101,6 +103,16 @@ WarmStart warm_start(const worlds::World& world, const seif::Registry& registry,
   warm.landmarks = round.landmarks();
   warm.updates = loop.counts().updates;
   return warm;
+}
+
+seif::Pose2 drive_on(const worlds::World& world, Believers& believers, std::int64_t updates,
+                     const std::atomic<bool>& stop) {
+  SimulatedStream stream(without_contacts(world, static_cast<double>(updates) / world.landmark_sensor.rate),
+                         {});
+  Round round(world, world.estimators.size());
+  LiveLoop loop(stream, believers, {&round}, stream.description(), never);
+  loop.run(stop, [](const LoopCounts&) {});
+  return round.T_world_robot();
 }
 
 }  // namespace harness

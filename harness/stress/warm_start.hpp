@@ -37,4 +37,9 @@ WarmStart warm_start(const worlds::World& world, const seif::Registry& registry,
                      const WarmStartLimits& limits, const std::atomic<bool>& stop,
                      const std::function<void(double t)>& progress);
 
+/// Drives on along the round, with the same engine, from where `world` has its robot start: so many updates.
+/// Returns where the robot is then.
+seif::Pose2 drive_on(const worlds::World& world, Believers& believers, std::int64_t updates,
+                     const std::atomic<bool>& stop);
+
 }  // namespace harness

@@ -55,6 +55,7 @@ TEST(StressCommand, AFilterIsLeftOutOfWorldsAboveItsLimitAndTheReportSaysSo) {
 TEST(StressCommand, RefusesWhatItCannotDo) {
   const TemporaryFolder folder;
   EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf").exit_code, 2);
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --updates 10 --places 11").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf=many").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --pattern spiral").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators nobody").exit_code, 2);

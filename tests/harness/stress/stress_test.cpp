@@ -54,8 +54,36 @@ TEST(Stress, RecordsWhatItMeasures) {
   plan.landmarks = {40};
   stress(plan, test::test_registry());
   for (const char* file :
-       {"40/world.yaml", "40/seif/observations.csv", "40/seif/seif_times.csv", "40/ekf/ekf_steps.csv"})
+       {"40/world.yaml", "40/seif/1/observations.csv", "40/seif/10/seif_times.csv", "40/ekf/1/ekf_steps.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+}
+
+/// Where the robot was at first.
+Eigen::Vector2d start_of(const std::filesystem::path& run) {
+  CsvReader reader(run / "truth.csv",
+                   {.required = {"t", "x", "y", "theta"}, .optional = {"left_wheel", "right_wheel"}});
+  EXPECT_TRUE(reader.next());
+  return {reader.number(1), reader.number(2)};
+}
+
+TEST(Stress, MeasuresAtPlacesAllAlongTheSecondRound) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.world.pattern = StressPattern::ring;
+  plan.landmarks = {40};
+  plan.places = 3;
+  const StressResult result = stress(plan, test::test_registry());
+  EXPECT_EQ(result.rows[0].updates, 20) << "no fewer for not being a multiple of the places";
+  for (const char* estimator : {"seif", "ekf"}) {
+    const std::filesystem::path runs = folder / "40" / estimator;
+    const Eigen::Vector2d first = start_of(runs / "1");
+    const Eigen::Vector2d second = start_of(runs / "2");
+    const Eigen::Vector2d third = start_of(runs / "3");
+    EXPECT_GT((second - first).norm(), 10.0);
+    EXPECT_GT((third - second).norm(), 10.0);
+    EXPECT_GT((first - third).norm(), 10.0);
+  }
+  EXPECT_LT(result.rows[0].estimators[0].map_rmse.value(), 0.5) << "it goes on between them";
 }
 
 TEST(Stress, SkipsEstimatorsBeyondTheirLimitAndSaysSo) {
