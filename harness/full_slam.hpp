@@ -48,7 +48,7 @@ void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odom
 /// Whether a motion is so certain that what was seen after it may count as seen from where it began.
 bool is_certain(const seif::Odometry& motion);
 
-/// The inverse of a motion's covariance, whatever its rank: no direction is known better than to 1e-6 m or
+/// The inverse of a motion's covariance, whatever its rank: no direction is known better than to 3e-6 m or
 /// rad.
 Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance);
 

@@ -14,7 +14,7 @@ void CondensationTree::end_update(const InformationState& state) {
 }
 
 /// What the messages of the plan hold of the residual, where all means are now. Once only: it takes what is
-/// loose.
+/// loose. And all at once: a landmark that is tied on two sides of the hub has to be told of in one place.
 void CondensationTree::tell_residuals(const InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
   note_zone_residual(state);

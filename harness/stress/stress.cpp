@@ -57,6 +57,22 @@ void skip_beyond_limits(const StressPlan& plan, worlds::World& world, StressRow&
   });
 }
 
+/// By estimator, what it took in the largest world so far.
+using Demands = std::map<std::string, std::string>;
+
+/// What is skipped by a limit says what it took where it still took part.
+void tell_demands(StressRow& row, Demands& demands) {
+  for (StressEstimator& estimator : row.estimators) {
+    if (estimator.update_us) {
+      demands[estimator.name] =
+          fmt::format("{:.3g} MB and {:.2g} ms each update with {} landmarks", 1e-6 * estimator.bytes,
+                      1e-3 * estimator.update_us->p50, row.landmarks);
+    } else if (demands.contains(estimator.name) && estimator.skipped.starts_with("skipped")) {
+      estimator.skipped += ": " + demands[estimator.name];
+    }
+  }
+}
+
 /// What was given up in one world would be given up in a larger one too.
 void skip_larger(StressPlan& plan, const std::string& estimator, std::int64_t landmarks) {
   const auto limit = plan.most_landmarks.try_emplace(estimator, landmarks).first;
@@ -97,6 +113,7 @@ StressResult stress(const StressPlan& plan, const seif::Registry& registry) {
   const InterruptGuard guard;
   StressResult result;
   StressPlan now = plan;
+  Demands demands;
   for (const std::int64_t landmarks : plan.landmarks) {
     now.world.landmarks = landmarks;
     now.folder = create_empty_folder(plan.folder / fmt::format("{}", landmarks));
@@ -108,6 +125,7 @@ StressResult stress(const StressPlan& plan, const seif::Registry& registry) {
     for (const StressEstimator& estimator : row.estimators) {
       if (!estimator.skipped.empty()) skip_larger(now, estimator.name, landmarks);
     }
+    tell_demands(row, demands);
     result.rows.push_back(std::move(row));
   }
   return result;
