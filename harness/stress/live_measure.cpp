@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "harness/stress/live_place.hpp"
-#include "harness/stress/resident_memory.hpp"
 
 namespace harness {
 
@@ -61,6 +60,7 @@ void describe(const LiveSamples& samples, double scan_rate, StressRow& row) {
   row.rest_us = sorted(samples.rest_us);
   row.second_us = times_rate(sorted(samples.cycle_us));
   row.realtime_factor = samples.t / samples.wall_s;
+  row.process_bytes = samples.process_bytes;
   row.growth_bytes_by_hour = samples.growth_bytes * 3600 / (0.8 * samples.t);
   row.counts = samples.counts;
 }
@@ -107,7 +107,6 @@ void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart&
       its_plan.folder /= "none";
     }
     LiveSamples samples = measure_places(its_plan, world, warm, alone, stop);
-    row.process_bytes = resident_bytes();
     describe(samples, world.landmark_sensor.rate, row);
     if (!alone.estimators.empty())
       measured.push_back(described(alone.estimators.front(), std::move(samples), world));

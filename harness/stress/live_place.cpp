@@ -135,6 +135,7 @@ void LiveSamples::add(const LiveSamples& other) {
   updates += other.updates;
   t += other.t;
   wall_s += other.wall_s;
+  process_bytes = other.process_bytes;
   growth_bytes += other.growth_bytes;
   build_s = other.build_s;
   last = other.last;
@@ -166,6 +167,7 @@ LiveSamples measure_place(const LivePlace& place, Believers& believers,
     cycles.end();
   });
   samples.wall_s = 1e-6 * us_since(begin);
+  samples.process_bytes = resident_bytes();
   samples.growth_bytes = cycles.growth();
   samples.t = loop.counts().t;
   samples.updates = loop.counts().updates;

@@ -26,12 +26,13 @@ struct LiveSamples {
   std::vector<double> blocks;     // [-] touched by each update
   sim::SimulatorCounts counts;
   std::int64_t updates = 0;
-  double t = 0.0;             // [s] simulated
-  double wall_s = 0.0;        // [s] it took
-  double growth_bytes = 0.0;  // of the resident memory, after the first fifth
-  double build_s = 0.0;       // [s] building the simulator took
-  ConsistencyRecord last;     // the score at the end, if it was asked for
-  seif::Pose2 T_world_robot;  // where the robot is then
+  double t = 0.0;              // [s] simulated
+  double wall_s = 0.0;         // [s] it took
+  double process_bytes = 0.0;  // resident at the end, with the simulator
+  double growth_bytes = 0.0;   // of these, after the first fifth
+  double build_s = 0.0;        // [s] building the simulator took
+  ConsistencyRecord last;      // the score at the end, if it was asked for
+  seif::Pose2 T_world_robot;   // where the robot is then
 };
 
 struct LivePlace {
