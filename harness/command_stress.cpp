@@ -113,8 +113,8 @@ void add_stress(CommandLine line) {
       "  seifbed stress --pattern forest --set estimators.seif.theta_x=16\n"
       "  seifbed stress --landmarks 100,1000 --json | jq .slopes\n"
       "Each filter first maps its world with the engine without contacts; then the same filter goes on live\n"
-      "in Bullet, here and there on a second round, and that is measured. docs/stress.md describes the "
-      "tables.");
+      "in Bullet, here and there on a second round, and that is measured.\n"
+      "docs/stress.md describes the tables.");
   auto arguments = std::make_shared<StressArguments>();
   add_options(*command, *arguments);
   command->callback([=, &registry = line.registry, &code = line.exit_code] {

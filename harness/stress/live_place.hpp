@@ -2,10 +2,13 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "harness/live_loop.hpp"
+#include "harness/run_listener.hpp"
 #include "harness/stress/stress.hpp"
 #include "worlds/world.hpp"
 
@@ -14,7 +17,7 @@ namespace harness {
 /// What was measured at one place, or at all so far.
 struct LiveSamples {
   /// With room for so many updates that is in memory already: taking samples must not look like growth.
-  LiveSamples(std::int64_t updates, const worlds::World& world);
+  LiveSamples(std::int64_t expected_updates, const worlds::World& world);
 
   void add(const LiveSamples& other);
 

@@ -44,14 +44,18 @@ worlds::World load(const StressPlan& plan, const seif::Registry& registry) {
   return std::move(*loaded.world);
 }
 
+bool is_beyond_limit(const StressPlan& plan, const std::string& estimator, std::int64_t landmarks) {
+  const auto limit = plan.most_landmarks.find(estimator);
+  return limit != plan.most_landmarks.end() && landmarks > limit->second;
+}
+
 /// Takes out the estimators whose limit the world is beyond.
 void skip_beyond_limits(const StressPlan& plan, worlds::World& world, StressRow& row) {
   std::erase_if(world.estimators, [&](const worlds::EstimatorChoice& estimator) {
-    const auto limit = plan.most_landmarks.find(estimator.name);
-    if (limit == plan.most_landmarks.end() || plan.world.landmarks <= limit->second) return false;
+    if (!is_beyond_limit(plan, estimator.name, plan.world.landmarks)) return false;
     StressEstimator skipped;
     skipped.name = estimator.name;
-    skipped.skipped = fmt::format("skipped above {}", limit->second);
+    skipped.skipped = fmt::format("skipped above {}", plan.most_landmarks.at(estimator.name));
     row.estimators.push_back(skipped);
     return true;
   });
@@ -61,13 +65,13 @@ void skip_beyond_limits(const StressPlan& plan, worlds::World& world, StressRow&
 using Demands = std::map<std::string, std::string>;
 
 /// What is skipped by a limit says what it took where it still took part.
-void tell_demands(StressRow& row, Demands& demands) {
+void tell_demands(const StressPlan& plan, StressRow& row, Demands& demands) {
   for (StressEstimator& estimator : row.estimators) {
     if (estimator.update_us) {
       demands[estimator.name] =
           fmt::format("{:.3g} MB and {:.2g} ms each update with {} landmarks", 1e-6 * estimator.bytes,
                       1e-3 * estimator.update_us->p50, row.landmarks);
-    } else if (demands.contains(estimator.name) && estimator.skipped.starts_with("skipped")) {
+    } else if (demands.contains(estimator.name) && is_beyond_limit(plan, estimator.name, row.landmarks)) {
       estimator.skipped += ": " + demands[estimator.name];
     }
   }
@@ -125,7 +129,7 @@ StressResult stress(const StressPlan& plan, const seif::Registry& registry) {
     for (const StressEstimator& estimator : row.estimators) {
       if (!estimator.skipped.empty()) skip_larger(now, estimator.name, landmarks);
     }
-    tell_demands(row, demands);
+    tell_demands(now, row, demands);
     result.rows.push_back(std::move(row));
   }
   return result;

@@ -155,8 +155,8 @@ std::string stress_tables(const StressPlan& plan, const StressResult& result) {
   return fmt::format(
       "{}, {} landmarks for each square metre, seed {}, {} updates measured after a warm start: each filter\n"
       "has first mapped the world with the engine without contacts, on the same sensors and rates; then the\n"
-      "same filter goes on live in Bullet, at {} places along a second round, and is "
-      "recorded.\n\n{}\n{}\n{}\n{}",
+      "same filter goes on live in Bullet, and is recorded; places along a second round: {}.\n\n"
+      "{}\n{}\n{}\n{}",
       stress_pattern_names.at(static_cast<std::size_t>(plan.world.pattern)), plan.world.density,
       plan.world.seed, plan.updates, plan.places, time_table(result), whole_table(result),
       estimator_table(result), slope_table(result));
