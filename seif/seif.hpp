@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "seif/associable_filter.hpp"
-#include "seif/condensation_tree.hpp"
+#include "seif/association/associable_filter.hpp"
 #include "seif/estimator.hpp"
+#include "seif/groups/multilevel_mean.hpp"
 #include "seif/information_state.hpp"
-#include "seif/multilevel_mean.hpp"
 #include "seif/observation_factor.hpp"
+#include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
 

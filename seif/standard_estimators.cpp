@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "seif/associating_filter.hpp"
-#include "seif/eif.hpp"
-#include "seif/ekf.hpp"
+#include "seif/association/associating_filter.hpp"
+#include "seif/dense/eif.hpp"
+#include "seif/dense/ekf.hpp"
 #include "seif/eseif.hpp"
 #include "seif/registry.hpp"
 #include "seif/report_seif.hpp"

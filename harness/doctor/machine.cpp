@@ -12,10 +12,9 @@
 #include <string>
 #include <system_error>
 
-#include "harness/csv_writer.hpp"
+#include "harness/figures/piped_program.hpp"
 #include "harness/film/frame_sink.hpp"
-#include "harness/film/piped_program.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "sim/render/renderer.hpp"
 
 namespace harness {

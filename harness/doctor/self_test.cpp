@@ -9,11 +9,11 @@
 #include <string>
 #include <variant>
 
-#include "harness/csv_writer.hpp"
-#include "harness/estimator_schemas.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/run_folder.hpp"
-#include "harness/simulated_stream.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/output_file.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/simulation/simulated_stream.hpp"
 #include "sim/render/renderer.hpp"
 #include "sim/simulator.hpp"
 #include "worlds/load.hpp"

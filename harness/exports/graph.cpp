@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "harness/log_stream.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/score/score_folder.hpp"
+#include "harness/stream/log_stream.hpp"
 #include "seif/models.hpp"
 
 namespace harness {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/full_slam.hpp"
+#include "harness/estimators/full_slam.hpp"
 
 namespace harness {
 

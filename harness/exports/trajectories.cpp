@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "harness/csv_writer.hpp"
-#include "harness/log_stream.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/files/csv_writer.hpp"
+#include "harness/score/score_folder.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <exception>
 
-#include "harness/ellipse.hpp"
 #include "harness/film/paint.hpp"
+#include "harness/statistics/ellipse.hpp"
 
 namespace harness {
 

@@ -7,15 +7,15 @@
 #include <unordered_map>
 #include <vector>
 
+#include "harness/figures/palette.hpp"
 #include "harness/film/camera_man.hpp"
 #include "harness/film/matrix_picture.hpp"
 #include "harness/film/point_index.hpp"
 #include "harness/film/series.hpp"
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
-#include "harness/live_loop.hpp"
-#include "harness/palette.hpp"
-#include "harness/run_listener.hpp"
+#include "harness/run/live_loop.hpp"
+#include "harness/stream/run_listener.hpp"
 #include "sim/render/scene.hpp"
 
 namespace harness {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/figures/palette.hpp"
 #include "harness/film/series.hpp"
-#include "harness/palette.hpp"
 #include "sim/render/scene.hpp"
 
 namespace harness {

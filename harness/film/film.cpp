@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/film/paint.hpp"
 #include "harness/film/titles.hpp"
 

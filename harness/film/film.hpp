@@ -17,8 +17,8 @@
 #include "harness/film/sight.hpp"
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
-#include "harness/live_loop.hpp"
-#include "harness/run_listener.hpp"
+#include "harness/run/live_loop.hpp"
+#include "harness/stream/run_listener.hpp"
 #include "sim/render/renderer.hpp"
 #include "worlds/world.hpp"
 

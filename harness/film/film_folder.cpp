@@ -7,12 +7,13 @@
 #include <limits>
 #include <utility>
 
-#include "harness/csv_reader.hpp"
-#include "harness/estimator_schemas.hpp"
-#include "harness/interrupt.hpp"
-#include "harness/progress.hpp"
-#include "harness/replay_settings.hpp"
-#include "harness/version.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/csv_reader.hpp"
+#include "harness/run/replay_settings.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
+#include "harness/terminal/version.hpp"
 
 namespace harness {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/film/film.hpp"
-#include "harness/prepared_run.hpp"
+#include "harness/run/prepared_run.hpp"
 #include "seif/registry.hpp"
 #include "worlds/load.hpp"
 

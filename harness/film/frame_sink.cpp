@@ -6,7 +6,7 @@
 #include <cctype>
 #include <optional>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/film/pictures.hpp"
 #include "harness/film/video.hpp"
 

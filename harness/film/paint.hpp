@@ -1,7 +1,7 @@
 // Colours and strokes of films.
 #pragma once
 
-#include "harness/palette.hpp"
+#include "harness/figures/palette.hpp"
 #include "sim/render/scene.hpp"
 
 namespace harness {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/film/stage.hpp"
-#include "harness/stream.hpp"
+#include "harness/stream/stream.hpp"
 #include "sim/render/scene.hpp"
 #include "sim/simulator.hpp"
 #include "worlds/world.hpp"

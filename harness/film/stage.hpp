@@ -6,8 +6,8 @@
 
 #include "harness/film/camera_man.hpp"
 #include "harness/film/point_index.hpp"
-#include "harness/log_description.hpp"
-#include "harness/stream.hpp"
+#include "harness/stream/log_description.hpp"
+#include "harness/stream/stream.hpp"
 #include "sim/render/scene.hpp"
 #include "worlds/world.hpp"
 

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "harness/film/piped_program.hpp"
+#include "harness/figures/piped_program.hpp"
 
 namespace harness {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/live_loop.hpp"
-#include "harness/score.hpp"
+#include "harness/run/live_loop.hpp"
+#include "harness/score/score.hpp"
 
 namespace harness {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "harness/paper/figures.hpp"
-#include "harness/prepared_run.hpp"
+#include "harness/run/prepared_run.hpp"
 
 namespace harness {
 

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "harness/ellipse.hpp"
-#include "harness/palette.hpp"
+#include "harness/figures/palette.hpp"
 #include "harness/paper/paper.hpp"
+#include "harness/statistics/ellipse.hpp"
 
 namespace harness {
 

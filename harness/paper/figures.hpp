@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "harness/gnuplot.hpp"
+#include "harness/figures/gnuplot.hpp"
 #include "harness/paper/belief.hpp"
 
 namespace harness {

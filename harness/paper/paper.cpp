@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
-#include "harness/estimator_schemas.hpp"
+#include "harness/comparison/parallel_runs.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/paper/report_world.hpp"
-#include "harness/parallel_runs.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/run_folder.hpp"
-#include "harness/version.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/terminal/version.hpp"
 
 namespace harness {
 

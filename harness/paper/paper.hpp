@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/comparison.hpp"
+#include "harness/comparison/comparison.hpp"
 #include "seif/registry.hpp"
 #include "worlds/load.hpp"
 

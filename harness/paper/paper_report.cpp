@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "harness/files/text_table.hpp"
 #include "harness/paper/published.hpp"
-#include "harness/text_table.hpp"
-#include "harness/version.hpp"
+#include "harness/terminal/version.hpp"
 
 namespace harness {
 

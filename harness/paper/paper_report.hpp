@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/comparison.hpp"
+#include "harness/comparison/comparison.hpp"
 #include "harness/paper/paper.hpp"
 
 namespace harness {

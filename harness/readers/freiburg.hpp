@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "harness/files/row_reader.hpp"
 #include "harness/readers/log_noise.hpp"
-#include "harness/recorded_log.hpp"
-#include "harness/row_reader.hpp"
+#include "harness/stream/recorded_log.hpp"
 
 namespace harness {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "harness/row_reader.hpp"
+#include "harness/files/bad_input.hpp"
 
 namespace harness {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/read_counts.hpp"
-#include "harness/stream.hpp"
+#include "harness/stream/read_counts.hpp"
+#include "harness/stream/stream.hpp"
 
 namespace harness {
 

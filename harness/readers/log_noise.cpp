@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "harness/row_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "worlds/document.hpp"
 #include "worlds/merge.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/log_description.hpp"
+#include "harness/stream/log_description.hpp"
 #include "seif/types.hpp"
 #include "worlds/fields.hpp"
 

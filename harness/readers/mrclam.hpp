@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
+#include "harness/files/row_reader.hpp"
 #include "harness/readers/log_noise.hpp"
 #include "harness/readers/velocity_log.hpp"
-#include "harness/row_reader.hpp"
 
 namespace harness {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "harness/files/row_reader.hpp"
 #include "harness/readers/velocity_log.hpp"
-#include "harness/row_reader.hpp"
 
 namespace harness {
 

@@ -6,13 +6,14 @@
 #include <map>
 #include <utility>
 
-#include "harness/log_stream.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/row_reader.hpp"
 #include "harness/readers/freiburg.hpp"
 #include "harness/readers/mrclam.hpp"
 #include "harness/readers/pose_landmark_graph.hpp"
 #include "harness/readers/victoria_park.hpp"
 #include "harness/readers/weighted_log.hpp"
-#include "harness/row_reader.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "harness/readers/log_noise.hpp"
-#include "harness/recorded_log.hpp"
+#include "harness/stream/recorded_log.hpp"
 
 namespace harness {
 

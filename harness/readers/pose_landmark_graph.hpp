@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "harness/recorded_log.hpp"
-#include "harness/row_reader.hpp"
+#include "harness/files/row_reader.hpp"
+#include "harness/stream/recorded_log.hpp"
 
 namespace harness {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "harness/recorded_log.hpp"
-#include "harness/truth_track.hpp"
+#include "harness/stream/recorded_log.hpp"
+#include "harness/stream/truth_track.hpp"
 
 namespace harness {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "harness/readers/log_noise.hpp"
-#include "harness/recorded_log.hpp"
+#include "harness/stream/recorded_log.hpp"
 
 namespace harness {
 

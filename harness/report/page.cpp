@@ -4,10 +4,10 @@
 
 #include <map>
 
-#include "harness/csv_writer.hpp"
-#include "harness/report/base64.hpp"
+#include "harness/files/base64.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/report/page_files.hpp"
-#include "harness/version.hpp"
+#include "harness/terminal/version.hpp"
 
 namespace harness {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/report/figure.hpp"
-#include "harness/text_table.hpp"
+#include "harness/figures/figure.hpp"
+#include "harness/files/text_table.hpp"
 
 namespace harness {
 

@@ -7,13 +7,13 @@
 #include <numbers>
 #include <set>
 
-#include "harness/csv_reader.hpp"
-#include "harness/ellipse.hpp"
-#include "harness/log_stream.hpp"
-#include "harness/report/downsampling.hpp"
-#include "harness/score/chi_square.hpp"
+#include "harness/figures/downsampling.hpp"
+#include "harness/files/csv_reader.hpp"
+#include "harness/score/score_folder.hpp"
 #include "harness/score/true_names.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/statistics/chi_square.hpp"
+#include "harness/statistics/ellipse.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/report/figure.hpp"
+#include "harness/figures/figure.hpp"
 
 namespace harness {
 

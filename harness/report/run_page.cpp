@@ -4,16 +4,16 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/film/matrix_picture.hpp"
-#include "harness/rebuilding.hpp"
-#include "harness/replay_settings.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/run/rebuilding.hpp"
+#include "harness/run/replay_settings.hpp"
 #include "harness/score/details.hpp"
-#include "harness/scoreboard.hpp"
+#include "harness/score/scoreboard.hpp"
 
 namespace harness {
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/stress/scaling.hpp"
 #include "harness/stress/stress_plot.hpp"

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
-#include "harness/seeds.hpp"
 #include "harness/sweep/status.hpp"
 #include "harness/sweep/sweep.hpp"
 

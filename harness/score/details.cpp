@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "harness/csv_reader.hpp"
-#include "harness/log_stream.hpp"
-#include "harness/score/chi_square.hpp"
+#include "harness/files/csv_reader.hpp"
+#include "harness/score/score_folder.hpp"
 #include "harness/score/true_names.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/statistics/chi_square.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 

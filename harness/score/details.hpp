@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "harness/score.hpp"
+#include "harness/files/text_table.hpp"
 #include "harness/score/from_reference.hpp"
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
 #include "harness/score/rebuilt.hpp"
-#include "harness/summary.hpp"
-#include "harness/text_table.hpp"
+#include "harness/score/score.hpp"
+#include "harness/score/summary.hpp"
 
 namespace harness {
 

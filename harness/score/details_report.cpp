@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "harness/score/chi_square.hpp"
+#include "harness/files/text_table.hpp"
 #include "harness/score/details.hpp"
-#include "harness/text_table.hpp"
+#include "harness/statistics/chi_square.hpp"
 
 namespace harness {
 

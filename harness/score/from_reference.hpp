@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/score_folder.hpp"
+#include "harness/score/score_folder.hpp"
 
 namespace harness {
 

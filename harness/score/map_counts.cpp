@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "harness/alignment.hpp"
+#include "harness/statistics/alignment.hpp"
 
 namespace harness {
 

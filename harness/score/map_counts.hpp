@@ -4,8 +4,8 @@
 #include <set>
 #include <span>
 
-#include "harness/run_listener.hpp"
-#include "harness/stream.hpp"
+#include "harness/stream/run_listener.hpp"
+#include "harness/stream/stream.hpp"
 
 namespace harness {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "harness/score/chi_square.hpp"
+#include "harness/statistics/chi_square.hpp"
 
 namespace harness {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "harness/score.hpp"
-#include "harness/statistics.hpp"
+#include "harness/score/score.hpp"
+#include "harness/statistics/statistics.hpp"
 
 namespace harness {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "harness/csv_reader.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/files/csv_reader.hpp"
+#include "harness/score/score_folder.hpp"
 
 namespace harness {
 

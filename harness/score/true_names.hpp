@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/run_listener.hpp"
+#include "harness/stream/run_listener.hpp"
 #include "seif/types.hpp"
 
 namespace harness {

@@ -5,11 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include "harness/progress.hpp"
-#include "harness/recorder.hpp"
-#include "harness/simulated_stream.hpp"
+#include "harness/recording/recorder.hpp"
+#include "harness/simulation/simulated_stream.hpp"
 #include "harness/stress/resident_memory.hpp"
 #include "harness/stress/timed_simulator.hpp"
+#include "harness/terminal/progress.hpp"
 
 namespace harness {
 

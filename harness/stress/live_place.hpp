@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "harness/live_loop.hpp"
-#include "harness/run_listener.hpp"
+#include "harness/run/live_loop.hpp"
+#include "harness/stream/run_listener.hpp"
 #include "harness/stress/stress.hpp"
 #include "worlds/world.hpp"
 

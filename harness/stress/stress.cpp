@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <chrono>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
-#include "harness/estimator_schemas.hpp"
-#include "harness/interrupt.hpp"
-#include "harness/progress.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "harness/stress/live_measure.hpp"
 #include "harness/stress/resident_memory.hpp"
 #include "harness/stress/warm_start.hpp"
-#include "harness/version.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
+#include "harness/terminal/version.hpp"
 #include "worlds/load.hpp"
 
 namespace harness {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/score.hpp"
+#include "harness/score/score.hpp"
 #include "harness/stress/stress_world.hpp"
 #include "seif/registry.hpp"
 #include "sim/simulator.hpp"

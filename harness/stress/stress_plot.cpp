@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/palette.hpp"
-#include "harness/report/figure_plot.hpp"
+#include "harness/figures/figure_plot.hpp"
+#include "harness/figures/palette.hpp"
 
 namespace harness {
 

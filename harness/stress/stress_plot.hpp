@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "harness/report/figure.hpp"
+#include "harness/figures/figure.hpp"
 #include "harness/stress/scaling.hpp"
 
 namespace harness {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/text_table.hpp"
 #include "harness/stress/scaling.hpp"
-#include "harness/text_table.hpp"
-#include "harness/version.hpp"
+#include "harness/terminal/version.hpp"
 
 namespace harness {
 

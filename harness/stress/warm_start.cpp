@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "harness/simulated_stream.hpp"
+#include "harness/simulation/simulated_stream.hpp"
 
 namespace harness {
 

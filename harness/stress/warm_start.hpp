@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "harness/live_loop.hpp"
+#include "harness/run/live_loop.hpp"
 #include "seif/registry.hpp"
 #include "worlds/world.hpp"
 

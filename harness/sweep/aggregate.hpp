@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/statistics.hpp"
+#include "harness/files/text_table.hpp"
+#include "harness/statistics/statistics.hpp"
 #include "harness/sweep/plan.hpp"
 #include "harness/sweep/rows.hpp"
-#include "harness/text_table.hpp"
 
 namespace harness {
 

@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/csv_writer.hpp"
-#include "harness/seeds.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/files/csv_writer.hpp"
+#include "harness/files/text_table.hpp"
 #include "harness/sweep/aggregate.hpp"
 #include "harness/sweep/status.hpp"
-#include "harness/text_table.hpp"
 
 namespace harness {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "harness/csv_writer.hpp"
+#include "harness/files/output_file.hpp"
 
 namespace harness {
 

@@ -6,7 +6,8 @@
 #include <array>
 #include <system_error>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 
 namespace harness {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "harness/csv_reader.hpp"
-#include "harness/seeds.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/files/bad_input.hpp"
 
 namespace harness {
 

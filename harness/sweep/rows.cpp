@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 
 namespace harness {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <charconv>
 
-#include "harness/csv_reader.hpp"
-#include "harness/fnv1a.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/fnv1a.hpp"
 #include "harness/sweep/shell.hpp"
 
 namespace harness {

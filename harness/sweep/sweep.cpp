@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <charconv>
 
-#include "harness/baseline.hpp"
-#include "harness/csv_reader.hpp"
-#include "harness/detailed_run.hpp"
-#include "harness/estimator_schemas.hpp"
-#include "harness/interrupt.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/progress.hpp"
-#include "harness/run_folder.hpp"
-#include "harness/seeds.hpp"
+#include "harness/comparison/baseline.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/detailed_run.hpp"
+#include "harness/run/prepared_run.hpp"
 #include "harness/sweep/processes.hpp"
-#include "harness/version.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
+#include "harness/terminal/version.hpp"
 #include "worlds/merge.hpp"
 
 namespace harness {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "harness/csv_writer.hpp"
+#include "harness/files/csv_writer.hpp"
 #include "harness/sweep/sweep.hpp"
 
 namespace harness {

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "archive.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/readers/open_log.hpp"
-#include "harness/row_reader.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "targets.hpp"
 
 namespace fuzz {

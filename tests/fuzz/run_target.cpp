@@ -2,12 +2,12 @@
 #include <vector>
 
 #include "archive.hpp"
-#include "harness/row_reader.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/recording/unfinished.hpp"
 #include "harness/score/details.hpp"
-#include "harness/score_folder.hpp"
-#include "harness/summary.hpp"
-#include "harness/unfinished.hpp"
+#include "harness/score/score_folder.hpp"
+#include "harness/score/summary.hpp"
 #include "targets.hpp"
 
 namespace fuzz {

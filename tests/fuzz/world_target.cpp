@@ -4,7 +4,7 @@
 #include <string>
 
 #include "archive.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "targets.hpp"
 #include "worlds/limits.hpp"
 #include "worlds/load.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 
 namespace harness::test {
 

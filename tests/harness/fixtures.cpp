@@ -4,8 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "harness/prepared_run.hpp"
-#include "harness/registry.hpp"
+#include "harness/estimators/registry.hpp"
+#include "harness/run/prepared_run.hpp"
 
 namespace harness::test {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "harness/live_loop.hpp"
-#include "harness/run.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/live_loop.hpp"
+#include "harness/run/run.hpp"
 #include "seif/registry.hpp"
 #include "worlds/world.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "dense_oracle.hpp"
 #include "ring_drive.hpp"
-#include "seif/eif.hpp"
+#include "seif/dense/eif.hpp"
 
 namespace seif {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "seif/ekf.hpp"
+#include "seif/dense/ekf.hpp"
 #include "seif/models.hpp"
 #include "seif/seif.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "path_drive.hpp"
-#include "seif/ekf.hpp"
+#include "seif/dense/ekf.hpp"
 #include "seif/models.hpp"
 #include "seif/seif.hpp"
 

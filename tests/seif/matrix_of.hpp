@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dense_oracle.hpp"
-#include "seif/eif.hpp"
-#include "seif/ekf.hpp"
+#include "seif/dense/eif.hpp"
+#include "seif/dense/ekf.hpp"
 #include "seif/eseif.hpp"
 #include "seif/report_seif.hpp"
 #include "seif/seif.hpp"

@@ -8,7 +8,7 @@
 #include "allocation_counter.hpp"
 #include "dense_oracle.hpp"
 #include "ring_drive.hpp"
-#include "seif/eif.hpp"
+#include "seif/dense/eif.hpp"
 #include "seif/registry.hpp"
 
 namespace seif {

@@ -7,10 +7,10 @@
 #include <random>
 
 #include "ring_drive.hpp"
-#include "seif/ekf.hpp"
+#include "seif/dense/ekf.hpp"
+#include "seif/dense/symmetric_downdate.hpp"
 #include "seif/report_seif.hpp"
 #include "seif/seif.hpp"
-#include "seif/symmetric_downdate.hpp"
 
 namespace seif {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/prepared_run.hpp"
-#include "harness/run_listener.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/stream/run_listener.hpp"
 
 namespace soak {
 

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/estimator_schemas.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/registry.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/estimators/registry.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
 #include "harness/stress/resident_memory.hpp"
 #include "invariants.hpp"
 #include "random_world.hpp"

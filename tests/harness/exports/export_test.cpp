@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "harness/command_call.hpp"
-#include "harness/csv_reader.hpp"
 #include "harness/exports/graph.hpp"
 #include "harness/exports/trajectories.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 
 namespace harness {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/film/film.hpp"
 
 namespace harness {

@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/csv_reader.hpp"
-#include "harness/estimator_schemas.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/estimators/registry.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/registry.hpp"
 #include "worlds/film_layers.hpp"
 #include "worlds/load.hpp"
 

@@ -13,7 +13,7 @@
 #include "harness/film/film_folder.hpp"
 #include "harness/film/paint.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/prepared_run.hpp"
+#include "harness/run/prepared_run.hpp"
 
 namespace harness {
 namespace {

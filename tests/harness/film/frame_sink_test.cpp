@@ -16,7 +16,7 @@
 #include <map>
 #include <sstream>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "sim/render/png.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "harness/fixtures.hpp"
-#include "harness/log_description.hpp"
+#include "harness/stream/log_description.hpp"
 
 namespace harness {
 namespace {

@@ -6,13 +6,12 @@
 #include <set>
 #include <variant>
 
-#include "harness/csv_reader.hpp"
+#include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/paper/drawn_run.hpp"
 #include "harness/paper/report_world.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/registry.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
 
 namespace harness {
 namespace {

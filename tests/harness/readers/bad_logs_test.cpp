@@ -5,8 +5,8 @@
 #include <iterator>
 #include <random>
 
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/row_reader.hpp"
 #include "logs.hpp"
 
 namespace harness {

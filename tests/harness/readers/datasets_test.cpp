@@ -8,13 +8,13 @@
 #include <sstream>
 #include <vector>
 
-#include "harness/alignment.hpp"
+#include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/prepared_run.hpp"
-#include "harness/reference.hpp"
-#include "harness/registry.hpp"
-#include "harness/replay_settings.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/run/reference.hpp"
+#include "harness/run/replay_settings.hpp"
+#include "harness/score/score_folder.hpp"
+#include "harness/statistics/alignment.hpp"
 
 namespace harness {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/readers/victoria_park.hpp"
-#include "harness/row_reader.hpp"
 #include "logs.hpp"
 
 namespace harness {

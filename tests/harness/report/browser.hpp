@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 
 namespace harness::test {
 

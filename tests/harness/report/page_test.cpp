@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/base64.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/report/base64.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "harness/report/run_figures.hpp"
-#include "harness/run_folder.hpp"
 
 namespace harness {
 namespace {

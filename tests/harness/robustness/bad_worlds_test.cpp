@@ -9,7 +9,7 @@
 #include <string>
 
 #include "harness/fixtures.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "limited_call.hpp"
 
 namespace harness {

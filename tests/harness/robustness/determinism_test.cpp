@@ -13,7 +13,7 @@
 
 #include "harness/command_call.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/prepared_run.hpp"
+#include "harness/run/prepared_run.hpp"
 #include "limited_call.hpp"
 
 namespace harness {

@@ -1,5 +1,5 @@
 // The running test of innovations: silent for right filters, soon for wrong ones.
-#include "harness/divergence.hpp"
+#include "harness/statistics/divergence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "harness/fixtures.hpp"
-#include "harness/log_stream.hpp"
-#include "harness/scoreboard.hpp"
+#include "harness/score/scoreboard.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/fixtures.hpp"
-#include "harness/scoreboard.hpp"
+#include "harness/score/scoreboard.hpp"
 
 namespace harness {
 namespace {

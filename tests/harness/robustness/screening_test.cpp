@@ -1,5 +1,5 @@
 // The door of the estimators: what is left out, and what is not.
-#include "harness/screening.hpp"
+#include "harness/stream/screening.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/command_call.hpp"
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
-#include "harness/score_folder.hpp"
+#include "harness/score/score_folder.hpp"
 
 namespace harness {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/score.hpp"
-#include "harness/score/chi_square.hpp"
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
 #include "harness/score/rebuilt.hpp"
+#include "harness/score/score.hpp"
+#include "harness/statistics/chi_square.hpp"
 
 namespace harness {
 namespace {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/csv_reader.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/stress/stress_report.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/estimator_schemas.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/fixtures.hpp"
 #include "worlds/load.hpp"
 

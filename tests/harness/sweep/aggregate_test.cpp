@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "harness/csv_reader.hpp"
-#include "harness/csv_writer.hpp"
-#include "harness/summary.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/files/csv_writer.hpp"
+#include "harness/score/summary.hpp"
 
 namespace harness {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "harness/fixtures.hpp"
-#include "harness/run_folder.hpp"
+#include "harness/recording/run_folder.hpp"
 
 namespace harness {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "harness/csv_reader.hpp"
-#include "harness/seeds.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/files/bad_input.hpp"
 
 namespace harness {
 namespace {

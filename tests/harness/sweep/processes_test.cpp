@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "harness/fixtures.hpp"
-#include "harness/interrupt.hpp"
+#include "harness/terminal/interrupt.hpp"
 
 namespace harness {
 namespace {

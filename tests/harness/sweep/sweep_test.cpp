@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "harness/csv_reader.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/sweep/status.hpp"
 

@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "harness/commands/commands.hpp"
+#include "harness/comparison/baseline.hpp"
+#include "harness/comparison/parallel_runs.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/replay_settings.hpp"
+#include "harness/terminal/version.hpp"
+
+namespace harness {
+
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> inputs;  // one world file, or log folders
+  std::string seeds;                // empty: 1..20, for a world
+  ReplayChoices choices;            // the overrides of worlds too
+  std::string baseline;             // empty: the ekf, or the first
+  int jobs = 1;
+  std::string keep;  // empty: the folders of the runs go
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Runs in a folder below `keep`, or in one that goes afterwards.
+template <class WriteWorld>
+DetailedRun execute_in(const std::string& keep, const std::string& name, PreparedRun run,
+                       const WriteWorld& write_world_to) {
+  const std::optional<TemporaryFolder> temporary =
+      keep.empty() ? std::make_optional<TemporaryFolder>() : std::nullopt;
+  run.plan.folder = create_run_folder(temporary ? temporary->path() : std::filesystem::path(keep), name);
+  run.plan.quiet = true;
+  write_world_to(run.plan.folder);
+  return execute_in_detail(run);
+}
+
+DetailedRun run_seed(const CompareArguments& arguments, std::uint64_t seed, const seif::Registry& registry) {
+  std::vector<std::string> overrides = arguments.choices.overrides;
+  overrides.push_back(fmt::format("seed={}", seed));
+  const worlds::LoadResult loaded =
+      worlds::load_world(arguments.inputs.front(), overrides, estimator_schemas(registry), program_version());
+  if (!loaded.world) throw BadInput(worlds::to_string(loaded.problems.front()));
+  const worlds::World& world = *loaded.world;
+  return execute_in(
+      arguments.keep, fmt::format("{}-{}", file_name_of(world.name), seed), prepare_run(world, registry),
+      [&](const std::filesystem::path& folder) { write_world(folder, world, loaded.resolved); });
+}
+
+/// The runs of a world, one for each seed. Nothing if it has problems.
+std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, const seif::Registry& registry,
+                                                  Comparison& comparison) {
+  if (!arguments.choices.estimators.empty())
+    throw BadInput("--estimators is for logs; for a world: --set 'estimators={ekf: {}, seif: {}}'");
+  const std::vector<std::uint64_t> seeds =
+      parse_seeds(arguments.seeds.empty() ? "1..20" : std::string_view(arguments.seeds));
+  const worlds::LoadResult loaded =
+      load_with_baseline(arguments.baseline, registry, arguments.choices.overrides, [&] {
+        return worlds::load_world(arguments.inputs.front(), arguments.choices.overrides,
+                                  estimator_schemas(registry));
+      });
+  if (!loaded.world) {
+    print_problems(loaded.problems);
+    return std::nullopt;
+  }
+  comparison.name = loaded.world->name;
+  comparison.baseline = choose_baseline(arguments.baseline, loaded.world->estimators);
+  std::vector<PlannedRun> planned;
+  for (const std::uint64_t seed : seeds) {
+    planned.push_back({fmt::format("{}-{}", comparison.name, seed),
+                       [&arguments, &registry, seed] { return run_seed(arguments, seed, registry); }});
+  }
+  return planned;
+}
+
+/// The runs of logs, one for each, which are opened once to see that they can be. Nothing if their settings
+/// have problems.
+std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, const seif::Registry& registry,
+                                                 Comparison& comparison) {
+  if (!arguments.seeds.empty()) throw BadInput("--seeds is for worlds; a log is recorded");
+  std::vector<std::string>& names = arguments.choices.estimators;
+  if (!names.empty() && !arguments.baseline.empty() &&
+      std::ranges::find(names, arguments.baseline) == names.end())
+    names.push_back(arguments.baseline);
+  std::vector<PlannedRun> planned;
+  for (const std::filesystem::path log : arguments.inputs) {
+    ReplayChoices choices = arguments.choices;
+    const worlds::LoadResult settings =
+        load_with_baseline(arguments.baseline, registry, choices.overrides,
+                           [&] { return load_replay_settings(log, choices, registry); });
+    if (!settings.world) {
+      print_problems(settings.problems);
+      return std::nullopt;
+    }
+    const std::string baseline = choose_baseline(arguments.baseline, settings.world->estimators);
+    if (planned.empty()) comparison.baseline = baseline;
+    if (baseline != comparison.baseline)
+      throw BadInput(
+          fmt::format("{}: has no estimator '{}' to compare with", log.string(), comparison.baseline));
+    const std::string name = file_name_of(prepare_replay(log, *settings.world, registry).plan.name);
+    const auto run = [&keep = arguments.keep, &registry, log, name, settings] {
+      return execute_in(
+          keep, name, prepare_replay(log, *settings.world, registry),
+          [&](const std::filesystem::path& folder) { write_replayed_world(folder, log, settings.resolved); });
+    };
+    planned.push_back({log.string(), run});
+  }
+  comparison.name = fmt::format("{} logs", planned.size());
+  return planned;
+}
+
+int compare(CompareArguments arguments, const seif::Registry& registry) {
+  Comparison comparison;
+  const bool are_logs = std::filesystem::is_directory(arguments.inputs.front());
+  if (!are_logs && arguments.inputs.size() > 1)
+    throw BadInput("what is compared is one world file, or log folders");
+  const std::optional<std::vector<PlannedRun>> planned =
+      are_logs ? plan_logs(arguments, registry, comparison) : plan_seeds(arguments, registry, comparison);
+  if (!planned) return 2;
+  if (!arguments.keep.empty()) create_empty_folder(arguments.keep);
+  FinishedRuns finished = execute_all(*planned, arguments.jobs, arguments.quiet || arguments.json);
+  comparison.runs = std::move(finished.runs);
+  comparison.interrupted = finished.interrupted;
+  compare_estimators(comparison);
+  std::string text;
+  if (arguments.json) {
+    text = to_json(comparison);
+  } else if (!arguments.quiet) {
+    text = comparison_board(comparison);
+  }
+  return print_all(text, exit_code(comparison));
+}
+
+}  // namespace
+
+void add_compare(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand(
+      "compare", "Run a world with many seeds, or many logs, and compare the estimators with intervals");
+  command->footer(
+      "Examples:\n"
+      "  seifbed compare worlds/courtyard.yaml\n"
+      "  seifbed compare worlds/report2002.yaml --seeds 1..50 --jobs 2 --baseline batch\n"
+      "  seifbed compare worlds/courtyard.yaml --seeds 3,5,8 --set 'estimators={ekf: {}, eseif: {}}'\n"
+      "  seifbed compare logs/* --estimators ekf,seif --baseline batch --json\n"
+      "Every estimator gets the same stream in each run, so ratios are of pairs. Update times are right "
+      "with\n"
+      "one job alone. What the columns mean is described in docs/scores.md.");
+  auto arguments = std::make_shared<CompareArguments>();
+  command->add_option("WORLD", arguments->inputs, "World file, or log folders")->required();
+  command->add_option("--seeds", arguments->seeds, "Seeds of a world, such as 1..20 (the default) or 1,2,7");
+  command
+      ->add_option("--estimators", arguments->choices.estimators,
+                   "On logs, only these: names from world.yaml, or types")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", arguments->choices.overrides,
+                   "Set a value of the world file; of logs, of estimators and scoring: path.to.key=value")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--baseline", arguments->baseline,
+      "Estimator that ratios are taken to; added if it is a type; by default ekf, or the first");
+  command->add_option("--jobs", arguments->jobs, "Runs at the same time")
+      ->check(CLI::Range(1, 256))
+      ->type_name("INT");
+  command->add_option("--keep", arguments->keep, "Keep the run folders in this folder");
+  command->add_flag("--json", arguments->json, "Print everything as JSON, with every run's summary");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->callback([=, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] { return compare(*arguments, registry); });
+  });
+}
+
+}  // namespace harness

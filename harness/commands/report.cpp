@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/commands/commands.hpp"
+#include "harness/figures/figure_plot.hpp"
+#include "harness/files/output_file.hpp"
+#include "harness/report/pages.hpp"
+
+namespace harness {
+
+namespace {
+
+struct ReportArguments {
+  std::string folder;
+  std::string out;      // empty: report.html in the folder
+  std::string figures;  // a folder for PNG and SVG; empty: none
+  std::string library;  // Chart.js; empty: where packages put it
+  bool no_replay = false;
+};
+
+/// Where Debian and others put it.
+constexpr const char* library_files[] = {"/usr/share/javascript/chart.js/chart.min.js",
+                                         "/usr/share/nodejs/chart.js/dist/chart.min.js",
+                                         "/usr/local/share/javascript/chart.js/chart.min.js"};
+
+std::string read_library(const std::string& file) {
+  if (!file.empty()) return read_whole_file(file);
+  for (const char* path : library_files) {
+    if (std::filesystem::exists(path)) return read_whole_file(path);
+  }
+  throw std::runtime_error(
+      "report: the plotting library Chart.js is missing (Debian's package libjs-chart.js); --chart-js FILE "
+      "says "
+      "where its chart.min.js is");
+}
+
+/// Each as PNG and SVG. False, and a line of stderr, if one cannot be drawn.
+bool draw_figures(const Page& page, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::string complaint;
+  for (const Figure& figure : page.figures) {
+    if (complaint.empty()) complaint = draw(figure, folder);
+  }
+  for (const MatrixFigure& matrix : page.matrices) {
+    if (complaint.empty()) complaint = draw(matrix, folder);
+  }
+  if (!complaint.empty()) fmt::print(stderr, "seifbed: {}\n", complaint);
+  return complaint.empty();
+}
+
+int report(const ReportArguments& arguments, const seif::Registry& registry) {
+  const std::filesystem::path folder = arguments.folder;
+  const std::string library = read_library(arguments.library);
+  const Page page = page_of(folder, registry, !arguments.no_replay);
+  const std::filesystem::path file =
+      arguments.out.empty() ? folder / "report.html" : std::filesystem::path(arguments.out);
+  write_whole_file(file, to_html(page, file, library));
+  const bool drawn = arguments.figures.empty() || draw_figures(page, arguments.figures);
+  return print_all(fmt::format("Written to {}\n", file.string()), drawn ? 0 : 1);
+}
+
+}  // namespace
+
+void add_report(CommandLine line) {
+  CLI::App* command =
+      line.app.add_subcommand("report", "Write a page with everything about a run, a sweep or a stress test");
+  command->footer(
+      "Examples:\n"
+      "  seifbed report runs/courtyard-1\n"
+      "  seifbed report runs/loop-1 --out loop.html --figures figures\n"
+      "  seifbed report theta                    # the folder of a sweep\n"
+      "  seifbed report runs/stress\n"
+      "The page is one HTML file that needs no network: scores, plots to zoom into, the world.\n"
+      "What it shows is described in docs/reports.md.");
+  auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("FOLDER", arguments->folder, "Folder of a run, a replay, a sweep or a stress test")
+      ->required();
+  command->add_option("--out", arguments->out,
+                      "File to write; by default report.html in the folder. An older one is replaced");
+  command->add_option("--figures", arguments->figures, "Folder for each figure as PNG and SVG, by gnuplot");
+  command->add_option("--chart-js", arguments->library,
+                      "The file chart.min.js of Chart.js 3, where it is not from Debian's package");
+  command->add_flag(
+      "--no-replay", arguments->no_replay,
+      "Leave out what only a replay of the run can tell: sparsity, NIS, NEES as seen from the robot");
+  command->callback([=, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] { return report(*arguments, registry); });
+  });
+}
+
+}  // namespace harness

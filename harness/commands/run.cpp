@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "harness/commands/commands.hpp"
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/film/film.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/run/resume.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/version.hpp"
+
+namespace harness {
+
+namespace {
+
+struct RunArguments {
+  std::string world;
+  std::vector<std::string> overrides;
+  std::string seed;                // checked as part of the world; empty: the file's
+  std::optional<double> duration;  // [s]
+  bool film = false;
+  bool resume = false;  // `world` is the folder of a run
+  OutputArguments output;
+};
+
+int run_world(const RunArguments& arguments, const seif::Registry& registry) {
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
+  if (arguments.duration) overrides.push_back(fmt::format("duration_s={}", *arguments.duration));
+  const worlds::LoadResult loaded =
+      worlds::load_world(arguments.world, overrides, estimator_schemas(registry), program_version());
+  if (!loaded.world) {
+    print_problems(loaded.problems);
+    return 2;
+  }
+  const worlds::World& world = *loaded.world;
+  PreparedRun run = prepare_run(world, registry);
+  open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
+  write_world(run.plan.folder, world, loaded.resolved);
+  if (!arguments.film) return print_result(execute(run), run.plan.folder, arguments.output);
+  Film film(film_plan(world), *run.log, *run.believers,
+            make_frame_sink(run.plan.folder / "film.mp4",
+                            {world.film.width, world.film.height, world.film.fps}, false));
+  film.after_each_frame([] { return !InterruptGuard::flag(); });
+  const RunResult result = execute(run, &film);
+  const int code = print_result(result, run.plan.folder, arguments.output);
+  film.finish(result.error.empty() && !result.summary.interrupted);
+  return code;
+}
+
+int resume_run(const RunArguments& arguments, const seif::Registry& registry) {
+  const std::filesystem::path folder = arguments.world;
+  if (is_incomplete(folder))
+    return print_result(resume(folder, registry, arguments.output.quiet || arguments.output.json), folder,
+                        arguments.output);
+  return arguments.output.quiet ? 0 : print_all(fmt::format("{} is complete\n", folder.string()), 0);
+}
+
+}  // namespace
+
+void add_run(CommandLine line) {
+  CLI::App* command =
+      line.app.add_subcommand("run", "Run a world: drive, sense, estimate live, record and score");
+  command->footer(
+      "Examples:\n"
+      "  seifbed run worlds/courtyard.yaml\n"
+      "  seifbed run worlds/courtyard.yaml --seed 7 --duration 60 --out /tmp/seven\n"
+      "  seifbed run worlds/courtyard.yaml --set drive.pose_from=odometry --set estimators.ekf={}\n"
+      "  seifbed run worlds/courtyard.yaml --film --set film.camera=chase --set film.layers.rays=false\n"
+      "  seifbed run --resume runs/courtyard-1\n"
+      "  seifbed run worlds/courtyard.yaml --json | jq .estimators.ekf.nees_pose");
+  auto arguments = std::make_shared<RunArguments>();
+  command->add_option("WORLD", arguments->world, "World file")->required();
+  command->add_option("--set", arguments->overrides, "Set a value of the world file: path.to.key=value")
+      ->allow_extra_args(false);
+  command->add_option("--seed", arguments->seed, "Seed of everything that is random")->type_name("INT");
+  command->add_option("--duration", arguments->duration, "Simulated time [s]");
+  command->add_flag("--film", arguments->film,
+                    "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
+                    "drawing between the updates makes their times a little longer");
+  CLI::Option* resume = command->add_flag(
+      "--resume", arguments->resume,
+      "WORLD is the folder of a run that was interrupted, killed or cut off by a full disk: complete it, "
+      "with the bytes that it would have had but for times; it is simulated again, which takes as long");
+  add_output_options(*command, arguments->output, "runs/<world>-<seed>");
+  for (const char* other : {"--set", "--seed", "--duration", "--film", "--out"})
+    resume->excludes(command->get_option(other));
+  command->callback([=, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] {
+      return arguments->resume ? resume_run(*arguments, registry) : run_world(*arguments, registry);
+    });
+  });
+}
+
+}  // namespace harness

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "harness/commands/commands.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/recording/unfinished.hpp"
+#include "harness/run/prepared_run.hpp"
+#include "harness/run/rebuilding.hpp"
+#include "harness/run/reference.hpp"
+#include "harness/run/replay_settings.hpp"
+#include "harness/score/details.hpp"
+#include "harness/score/scoreboard.hpp"
+
+namespace harness {
+
+namespace {
+
+struct ScoreArguments {
+  std::filesystem::path folder;
+  DetailChoices details;
+  std::vector<std::string> references;  // estimators that are scored beside those of the run
+  bool every_update = false;
+  bool no_replay = false;
+  bool json = false;
+};
+
+/// By a replay into an empty folder. A run that does not come to the same estimates again, or whose
+/// estimators this program does not have, goes without, unless all updates were asked for.
+std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const Summary& summary,
+                                         const std::vector<std::string>& names,
+                                         const std::filesystem::path& to, const seif::Registry& registry) {
+  constexpr double shorter_than_any = 1e-6;  // [s]
+  Rebuilding rebuilding{.run = arguments.folder, .to = to, .estimators = names};
+  if (arguments.every_update) rebuilding.interval = shorter_than_any;
+  const auto go_without = [&](const std::exception& error) {
+    if (arguments.every_update) throw;
+    fmt::print(stderr, "seifbed: no NIS and no NEES from the robot: {}\n", error.what());
+    return std::vector<RebuiltScore>(names.size());
+  };
+  try {
+    return rebuild(rebuilding, summary, registry);
+  } catch (const NotReplayed& error) {
+    return go_without(error);
+  } catch (const BadInput& error) {
+    return go_without(error);
+  }
+}
+
+/// Of what is whole of a run that was cut off: by a replay, which writes what that run came not to write.
+void make_whole(const std::filesystem::path& log, const std::filesystem::path& to,
+                const seif::Registry& registry) {
+  const worlds::LoadResult settings = load_replay_settings(log, {}, registry);
+  if (!settings.world) throw BadInput(worlds::to_string(settings.problems.front()));
+  PreparedRun replay = prepare_replay(log, *settings.world, registry);
+  write_replayed_world(to, log, settings.resolved);
+  replay.plan.folder = to;
+  replay.plan.quiet = true;
+  execute(replay);
+}
+
+/// What a reader of the tables should know of a log that does not tell the truth.
+std::string without_truth(const std::filesystem::path& run) {
+  const bool poses = std::filesystem::exists(run / "truth.csv");
+  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
+  if (poses && landmarks) return "";
+  return fmt::format(
+      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
+      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
+      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
+}
+
+int score(const ScoreArguments& arguments, const seif::Registry& registry) {
+  const std::filesystem::path& folder = arguments.folder;
+  Summary summary = read_summary(folder / "summary.json");
+  std::vector<std::string> names;
+  for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
+  summary.score = score_folder(folder, names, summary.rpe_interval);
+  const TemporaryFolder replayed;
+  std::vector<RebuiltScore> rebuilt(names.size());
+  if (!arguments.no_replay) rebuilt = rebuilt_scores(arguments, summary, names, replayed.path(), registry);
+  DetailChoices choices = arguments.details;
+  if (arguments.every_update) choices.consistency = replayed.path();
+  RunDetails details = score_details(folder, names, choices);
+  for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
+  for (const std::string& name : arguments.references) {
+    const ReferenceScore reference = score_reference(name, folder, summary, arguments.details, registry);
+    if (is_optimum(name) && details.reference.empty()) {
+      details.reference = name;
+      for (EstimatorDetails& estimator : details.estimators)
+        estimator.from_reference = distance_from_reference(folder, estimator.name, reference.estimate);
+    }
+    summary.score.estimators.push_back(reference.score);
+    summary.failures.emplace_back();
+    details.estimators.push_back(reference.details);
+  }
+  if (arguments.json) return print_all(to_json(summary, details), 0);
+  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), 0);
+}
+
+int score_any(ScoreArguments arguments, const seif::Registry& registry) {
+  const TemporaryFolder log;
+  const TemporaryFolder whole;
+  if (is_unfinished(arguments.folder)) {
+    make_whole(whole_log(arguments.folder, log.path()), whole.path(), registry);
+    arguments.folder = whole.path();
+  }
+  return score(arguments, registry);
+}
+
+}  // namespace
+
+void add_score(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand("score", "Score a run again, in more detail, from its folder");
+  command->footer(
+      "Examples:\n"
+      "  seifbed score runs/courtyard-1\n"
+      "  seifbed score runs/loop-1 --rpe-m 1,10,100 --away-s 60\n"
+      "  seifbed score runs/report2002-1 --every-update --json | jq .estimators.ekf.nees_pose_inside\n"
+      "  seifbed score runs/courtyard-1 --reference batch,mrpt_ekf\n"
+      "Nothing is simulated; innovations and joint covariances are rebuilt by a replay. What the scores mean "
+      "is described in docs/scores.md.");
+  auto arguments = std::make_shared<ScoreArguments>();
+  command->add_option("RUN", arguments->folder, "Folder of a run or of a replay")->required();
+  command
+      ->add_option("--rpe-m", arguments->details.distances,
+                   "Distances of the relative pose error along the path [m]; by default 1,5,10")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--away-s", arguments->details.away,
+          "How long a landmark was out of sight when seeing it again closes a loop [s]; 20 by default")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--reference", arguments->references,
+          "Rows of others on the same stream: batch, the least-squares optimum of all that was measured; "
+          "robust_batch, which trusts outliers less; mrpt_ekf, MRPT's EKF-SLAM, with its times, where this "
+          "program was built with it. The first optimum also says how far the others are from it")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(std::vector<std::string>(references.begin(), references.end())));
+  CLI::Option* every_update =
+      command->add_flag("--every-update", arguments->every_update,
+                        "Take NEES and NIS at every update, and not at the scoring times alone");
+  command
+      ->add_flag("--no-replay", arguments->no_replay,
+                 "Leave out what only a replay can tell: NIS, and NEES of landmarks as seen from the robot")
+      ->excludes(every_update);
+  command->add_flag("--json", arguments->json, "Print it as JSON");
+  command->callback([=, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] { return score_any(*arguments, registry); });
+  });
+}
+
+}  // namespace harness

@@ -1,0 +1,163 @@
+// A comparison as JSON and as tables.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/comparison/comparison.hpp"
+#include "harness/files/text_table.hpp"
+#include "harness/terminal/version.hpp"
+
+namespace harness {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json estimate(const std::optional<Estimate>& value) {
+  const bool is_bounded = value && value->interval;
+  return {{"value", value ? Json(value->value) : Json(nullptr)},
+          {"low", is_bounded ? Json(value->interval->low) : Json(nullptr)},
+          {"high", is_bounded ? Json(value->interval->high) : Json(nullptr)}};
+}
+
+Json estimator_json(const EstimatorComparison& estimator) {
+  Json json;
+  json["runs"] = estimator.runs;
+  json["failed"] = estimator.failed;
+  json["landmark_mse_m2"] = estimate(estimator.landmark_mse);
+  json["landmark_mse_median_m2"] = number(estimator.landmark_mse_median);
+  json["landmark_mse_ratio"] = estimate(estimator.landmark_mse_ratio);
+  json["landmark_rmse_aligned_m"] = estimate(estimator.landmark_aligned);
+  json["landmark_rmse_aligned_ratio"] = estimate(estimator.aligned_ratio);
+  json["landmark_rmse_aligned_ratio_median"] = number(estimator.aligned_ratio_median);
+  json["nees_pose_final"] = estimate(estimator.nees_pose);
+  json["nees_landmark_final"] = estimate(estimator.nees_landmark);
+  json["nees_landmark_from_robot_final"] = estimate(estimator.nees_from_robot);
+  json["nis_scan"] = estimate(estimator.nis_scan);
+  json["nis_scan_inside"] = number(estimator.nis_scan_inside);
+  json["landmarks_missed"] = number(estimator.landmarks_missed);
+  json["landmarks_spurious"] = number(estimator.landmarks_spurious);
+  json["landmarks_duplicate"] = number(estimator.landmarks_duplicate);
+  json["links"] = estimate(estimator.links);
+  json["links_max"] = number(estimator.links_max);
+  json["relocations_per_update"] = number(estimator.relocations_per_update);
+  json["update_p50_us"] = number(estimator.update_p50_us);
+  json["update_p99_us"] = number(estimator.update_p99_us);
+  return json;
+}
+
+Json run_json(const ComparedRun& run) {
+  const std::string& error = run.result.error;
+  return {{"name", run.name},
+          {"error", error.empty() ? Json(nullptr) : Json(error)},
+          {"summary", Json::parse(to_json(DetailedRun{run.result, run.details}))}};
+}
+
+std::string value_cell(const std::optional<Estimate>& value, int decimals) {
+  return number_cell(value ? std::optional(value->value) : std::nullopt, decimals);
+}
+
+std::string interval_cell(const std::optional<Estimate>& value, int decimals) {
+  if (!value || !value->interval) return "-";
+  return fmt::format("{} to {}", number_cell(value->interval->low, decimals),
+                     number_cell(value->interval->high, decimals));
+}
+
+TextRow accuracy_row(const EstimatorComparison& estimator) {
+  return {estimator.name,
+          fmt::format("{}", estimator.runs),
+          fmt::format("{}", estimator.failed),
+          value_cell(estimator.landmark_mse, 4),
+          interval_cell(estimator.landmark_mse, 4),
+          value_cell(estimator.landmark_mse_ratio, 3),
+          interval_cell(estimator.landmark_mse_ratio, 3),
+          value_cell(estimator.landmark_aligned, 4),
+          value_cell(estimator.aligned_ratio, 3),
+          number_cell(estimator.aligned_ratio_median, 3)};
+}
+
+TextRow consistency_row(const EstimatorComparison& estimator) {
+  std::optional<double> inside = estimator.nis_scan_inside;
+  if (inside) *inside *= 100.0;
+  return {estimator.name,
+          value_cell(estimator.nees_pose, 2),
+          interval_cell(estimator.nees_pose, 2),
+          value_cell(estimator.nees_landmark, 2),
+          interval_cell(estimator.nees_landmark, 2),
+          value_cell(estimator.nees_from_robot, 2),
+          interval_cell(estimator.nees_from_robot, 2),
+          value_cell(estimator.nis_scan, 2),
+          interval_cell(estimator.nis_scan, 2),
+          number_cell(inside, 0)};
+}
+
+TextRow cost_row(const EstimatorComparison& estimator) {
+  return {estimator.name,
+          number_cell(estimator.landmarks_missed, 1),
+          number_cell(estimator.landmarks_spurious, 1),
+          number_cell(estimator.landmarks_duplicate, 1),
+          value_cell(estimator.links, 0),
+          number_cell(estimator.links_max, 0),
+          number_cell(estimator.relocations_per_update, 3),
+          number_cell(estimator.update_p50_us, 1),
+          number_cell(estimator.update_p99_us, 1)};
+}
+
+/// A line for each run and each estimator in it that failed.
+std::string failures(const ComparedRun& run) {
+  if (!run.result.error.empty()) return fmt::format("{} failed: {}\n", run.name, run.result.error);
+  const Summary& summary = run.result.summary;
+  std::string text;
+  for (std::size_t i = 0; i < summary.failures.size(); ++i) {
+    if (summary.failures[i].empty()) continue;
+    text +=
+        fmt::format("{}: {} failed {}\n", run.name, summary.score.estimators[i].name, summary.failures[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string failures_of(const Comparison& comparison) {
+  std::string text;
+  for (const ComparedRun& run : comparison.runs) text += failures(run);
+  return text;
+}
+
+std::string to_json(const Comparison& comparison) {
+  Json json;
+  json["name"] = comparison.name;
+  json["version"] = program_version();
+  json["baseline"] = comparison.baseline;
+  json["interrupted"] = comparison.interrupted;
+  json["estimators"] = Json::object();
+  for (const EstimatorComparison& estimator : comparison.estimators)
+    json["estimators"][estimator.name] = estimator_json(estimator);
+  json["runs"] = Json::array();
+  for (const ComparedRun& run : comparison.runs) json["runs"].push_back(run_json(run));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string comparison_board(const Comparison& comparison) {
+  const std::string over = "over " + comparison.baseline;
+  std::vector<TextRow> accuracy = {
+      {"map error", "runs", "failed", "MSE [m^2]", "95 %", over, "95 %", "aligned [m]", over, "median"}};
+  std::vector<TextRow> consistency = {{"at the end", "NEES pose", "95 %", "NEES map", "95 %", "from robot",
+                                       "95 %", "NIS of scans", "95 %", "inside [%]"}};
+  std::vector<TextRow> cost = {{"map and cost", "missed", "spurious", "duplicate", "links", "most",
+                                "relocations", "p50 [us]", "p99 [us]"}};
+  for (const EstimatorComparison& estimator : comparison.estimators) {
+    accuracy.push_back(accuracy_row(estimator));
+    consistency.push_back(consistency_row(estimator));
+    cost.push_back(cost_row(estimator));
+  }
+  std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
+                                 comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
+                                 text_table(consistency), text_table(cost));
+  const std::string failed = failures_of(comparison);
+  return failed.empty() ? text : text + '\n' + failed;
+}
+
+}  // namespace harness

@@ -1,0 +1,57 @@
+#include "harness/estimators/estimator_schemas.hpp"
+
+#include <utility>
+
+namespace harness {
+
+namespace {
+
+/// Describes one option; its value is left in `options`.
+class DescribeOption {
+ public:
+  DescribeOption(worlds::Fields& fields, const seif::OptionSpec& spec, worlds::OptionValue& value)
+      : fields_(fields), spec_(spec), value_(value) {}
+
+  void operator()(bool value) {
+    fields_.boolean(spec_.key, value, spec_.help);
+    value_ = value;
+  }
+  void operator()(std::int64_t value) {
+    fields_.integer(spec_.key, value, worlds::between(spec_.min, spec_.max), spec_.help);
+    value_ = value;
+  }
+  void operator()(double value) {
+    fields_.number(spec_.key, value, worlds::between(spec_.min, spec_.max), spec_.help);
+    value_ = value;
+  }
+  void operator()(std::string value) {
+    if (spec_.choices.empty()) {
+      fields_.text(spec_.key, value, spec_.help);
+    } else {
+      fields_.choice(spec_.key, value, spec_.choices, spec_.help);
+    }
+    value_ = std::move(value);
+  }
+
+ private:
+  worlds::Fields& fields_;
+  const seif::OptionSpec& spec_;
+  worlds::OptionValue& value_;
+};
+
+}  // namespace
+
+worlds::EstimatorSchemas estimator_schemas(const seif::Registry& registry) {
+  worlds::EstimatorSchemas schemas;
+  for (const seif::EstimatorType& type : registry.types()) {
+    schemas[type.name] = [specs = type.options](worlds::Fields& fields,
+                                                std::map<std::string, worlds::OptionValue>& options) {
+      for (const seif::OptionSpec& spec : specs) {
+        std::visit(DescribeOption(fields, spec, options[spec.key]), spec.fallback);
+      }
+    };
+  }
+  return schemas;
+}
+
+}  // namespace harness

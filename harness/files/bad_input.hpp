@@ -1,0 +1,14 @@
+// The error for everything that a user got wrong.
+#pragma once
+
+#include <stdexcept>
+
+namespace harness {
+
+/// The program was given bad input. what() is a whole message: `file:line:column: reason`.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace harness

@@ -1,0 +1,40 @@
+// Writes text tables as a run goes, in bounded memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "harness/files/output_file.hpp"
+
+namespace harness {
+
+/// A text as one cell of a table: between quotes where it needs them (RFC 4180).
+std::string csv_cell(std::string_view text);
+
+/// Rows of values. Numbers read back to the same bits.
+class CsvWriter {
+ public:
+  /// `header` is the first line, without its end. The separator of TUM files is a space, and they have no
+  /// header.
+  explicit CsvWriter(std::filesystem::path path, std::string_view header, char separator = ',');
+
+  CsvWriter& value(double number);
+  CsvWriter& value(std::int64_t number);
+  CsvWriter& leave_empty(int cells = 1);
+  void end_row();
+
+  void flush() { file_.flush(); }
+  void close() { file_.close(); }
+
+ private:
+  void separate();
+
+  OutputFile file_;
+  char separator_;
+  bool row_begun_ = false;
+  std::string row_;
+};
+
+}  // namespace harness

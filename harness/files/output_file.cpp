@@ -1,0 +1,122 @@
+#include "harness/files/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+namespace harness {
+
+namespace {
+
+constexpr std::size_t buffer_limit = std::size_t{1} << 16;  // [byte] gathered before they go to the system
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail(errno);
+  buffer_.reserve(buffer_limit + buffer_limit / 4);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      buffer_(std::move(other.buffer_)),
+      size_(other.size_) {}
+
+OutputFile::~OutputFile() {
+  try {
+    close();
+  } catch (const std::system_error&) {
+    // A destructor cannot tell; whoever needs to know calls close().
+  }
+}
+
+void OutputFile::append(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= buffer_limit) flush();
+}
+
+void OutputFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error = errno;
+      keep_whole_lines(std::string_view(buffer_).substr(0, buffer_.size() - rest.size()));
+      fail(error);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  size_ += static_cast<std::int64_t>(buffer_.size());
+  buffer_.clear();
+  // Writing to a file that was deleted succeeds, and everything is lost.
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail(errno);
+  if (status.st_nlink == 0) fail(ENOENT);
+}
+
+/// `written` is how much of the buffer has reached the file.
+void OutputFile::keep_whole_lines(std::string_view written) {
+  const std::size_t end = written.rfind('\n');
+  size_ += end == std::string_view::npos ? 0 : static_cast<std::int64_t>(end) + 1;
+  buffer_.clear();
+  static_cast<void>(::ftruncate(descriptor_, size_) == 0);  // the first failure is the one to tell of
+}
+
+void OutputFile::sync() {
+  flush();
+  if (::fsync(descriptor_) != 0) fail(errno);
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  try {
+    flush();
+  } catch (const std::system_error&) {
+    ::close(std::exchange(descriptor_, -1));
+    throw;
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+}
+
+void OutputFile::fail(int error) const {
+  throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", path_.string()));
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path unfinished = path;
+  unfinished += ".part";
+  std::filesystem::remove(unfinished);
+  try {
+    OutputFile file(unfinished);
+    file.append(text);
+    file.sync();
+    file.close();
+    std::filesystem::rename(unfinished, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw;
+  }
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const int error = file.is_open() ? EIO : errno;
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file)
+    throw std::system_error(error, std::generic_category(), fmt::format("cannot read {}", path.string()));
+  return text;
+}
+
+}  // namespace harness

@@ -1,0 +1,104 @@
+#include "harness/recording/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "harness/files/bad_input.hpp"
+#include "harness/files/fnv1a.hpp"
+
+namespace harness {
+
+namespace {
+
+bool is_hashed(const std::string& name) {
+  return name == "truth.csv" || name == "odometry.csv" || name == "observations.csv" ||
+         name.ends_with(".tum") || name.ends_with("_map.csv");
+}
+
+void add_file(Fnv1a& hash, const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 1 << 16> block;
+  while (file) {
+    file.read(block.data(), block.size());
+    hash.add({block.data(), static_cast<std::size_t>(file.gcount())});
+  }
+  if (!file.eof())
+    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
+}
+
+}  // namespace
+
+std::string file_name_of(std::string_view name) {
+  constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  constexpr std::size_t longest = 100;  // [byte] well below what file systems take, with room for a suffix
+  std::string result(name.substr(0, longest));
+  for (char& c : result) {
+    if (allowed.find(c) == std::string_view::npos) c = '_';
+  }
+  if (result.empty() || result.front() == '.' || result.front() == '-') result.insert(result.begin(), '_');
+  return result;
+}
+
+std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name) {
+  std::filesystem::create_directories(parent);
+  std::filesystem::path folder = parent / name;
+  // create_directory is one mkdir: true only for whoever made it.
+  for (int next = 2; !std::filesystem::create_directory(folder); ++next)
+    folder = parent / fmt::format("{}-{}", name, next);
+  return folder;
+}
+
+std::filesystem::path create_empty_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw BadInput(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  const bool is_empty = std::filesystem::is_empty(folder, error);
+  if (error) throw BadInput(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (!is_empty)
+    throw BadInput(fmt::format("{}: is not empty; a run never writes over another", folder.string()));
+  return folder;
+}
+
+std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::filesystem::path file = folder / name;
+  for (int number = 2; std::filesystem::exists(file); ++number)
+    file = folder / fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
+  return file;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "seifbed_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr)
+    throw std::system_error(errno, std::generic_category(), fmt::format("cannot create {}", pattern));
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string trajectory_hash(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (is_hashed(name)) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  Fnv1a hash;
+  for (const std::string& name : names) {
+    hash.add(name);
+    hash.add(std::string_view("\0", 1));
+    add_file(hash, folder / name);
+  }
+  return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace harness

@@ -1,0 +1,93 @@
+#include "harness/run/prepared_run.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "harness/files/output_file.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/run/replay_settings.hpp"
+#include "harness/simulation/simulated_stream.hpp"
+#include "worlds/document.hpp"
+#include "worlds/merge.hpp"
+
+namespace harness {
+
+namespace {
+
+/// The commands' own file name in the run folder, where world.yaml finds it again.
+constexpr const char* commands_file = "commands.csv";
+
+template <class SomeStream>
+void set_stream(PreparedRun& run, std::unique_ptr<SomeStream> stream) {
+  run.log = &stream->description();
+  run.stream = std::move(stream);
+}
+
+void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Registry& registry) {
+  run.believers->estimators = make_estimators(registry, world.estimators, *run.log, world.seed);
+  run.plan.seed = world.seed;
+  run.plan.scoring = world.scoring;
+}
+
+}  // namespace
+
+PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry) {
+  PreparedRun run;
+  run.believers = std::make_unique<Believers>();
+  set_stream(run,
+             std::make_unique<SimulatedStream>(world, steering_pose(world.drive.pose_from, *run.believers)));
+  set_estimators(run, world, registry);
+  run.plan.name = world.name;
+  run.plan.end_t = world.duration;
+  return run;
+}
+
+PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
+                           const seif::Registry& registry) {
+  return prepare_replay(LogChoice{.path = log}, world, registry);
+}
+
+PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry) {
+  PreparedRun run;
+  run.believers = std::make_unique<Believers>();
+  set_stream(run, open_log(log));
+  set_estimators(run, world, registry);
+  run.plan.name = run.log->name;
+  return run;
+}
+
+RunResult execute(PreparedRun& run, RunListener* follower) {
+  return execute(*run.stream, *run.log, *run.believers, run.plan, follower);
+}
+
+RunResult execute_in_passing(PreparedRun& run, RunListener* follower) {
+  const TemporaryFolder folder;
+  run.plan.folder = folder.path();
+  run.plan.quiet = true;
+  return execute(run, follower);
+}
+
+void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {
+  if (world.drive.mode == worlds::DriveMode::commands) {
+    std::filesystem::copy_file(world.drive.commands_file, folder / commands_file);
+    std::vector<worlds::Problem> problems;
+    std::optional<worlds::Node> document = worlds::parse_document(resolved, "world.yaml", problems);
+    worlds::apply_override(*document, fmt::format("drive.file={}", commands_file), problems);
+    resolved = worlds::emit(*document);
+  }
+  write_whole_file(folder / "world.yaml", resolved);
+}
+
+void write_replayed_world(const std::filesystem::path& folder, const std::filesystem::path& log,
+                          const std::string& resolved) {
+  if (!std::filesystem::exists(log / "world.yaml"))
+    return write_whole_file(folder / "replay.yaml", settings_of_replay(resolved));
+  write_whole_file(folder / "world.yaml", resolved);
+  if (std::filesystem::exists(log / commands_file))
+    std::filesystem::copy_file(log / commands_file, folder / commands_file);
+}
+
+}  // namespace harness

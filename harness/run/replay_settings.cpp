@@ -1,0 +1,91 @@
+#include "harness/run/replay_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/files/bad_input.hpp"
+#include "harness/readers/open_log.hpp"
+#include "worlds/check.hpp"
+#include "worlds/describe.hpp"
+#include "worlds/merge.hpp"
+
+namespace harness {
+
+namespace {
+
+/// The document of the run that wrote the log.
+std::optional<worlds::Node> read_settings(const std::filesystem::path& log, const ReplayChoices& choices,
+                                          std::vector<worlds::Problem>& problems) {
+  for (const char* file : {"world.yaml", "replay.yaml"}) {
+    if (std::filesystem::exists(log / file)) return worlds::read_document(log / file, problems);
+  }
+  const std::string defaults = choices.defaults.empty() ? default_settings(LogFormat::own) : choices.defaults;
+  return worlds::parse_document(defaults, "settings", problems);
+}
+
+void check_override(const std::string& assignment) {
+  for (const char* settable : {"estimators.", "scoring.", "film.", "seed="}) {
+    if (assignment.starts_with(settable)) return;
+  }
+  throw BadInput(fmt::format(
+      "--set {}: a replay can set estimators, scoring, film, seed and noise; the rest is recorded",
+      assignment));
+}
+
+/// Leaves the estimators that were asked for, in the order of the file; a registered type that is missing
+/// comes in with its defaults.
+void select_estimators(worlds::Node& document, const std::vector<std::string>& names,
+                       const seif::Registry& registry, std::vector<worlds::Problem>& problems) {
+  if (names.empty()) return;
+  for (const std::string& name : names) {
+    if (worlds::find_path(document, "estimators." + name) != nullptr) continue;
+    if (registry.find(name) == nullptr)
+      throw BadInput(fmt::format("--estimators: there is no estimator '{}'", name));
+    worlds::apply_override(document, fmt::format("estimators.{}={{}}", name), problems);
+  }
+  worlds::Node* estimators = document.find("estimators");
+  if (estimators == nullptr) return;
+  std::erase_if(estimators->entries, [&](const worlds::Node::Entry& entry) {
+    return std::ranges::find(names, entry.key) == names.end();
+  });
+}
+
+}  // namespace
+
+worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
+                                        const seif::Registry& registry) {
+  worlds::LoadResult result;
+  std::optional<worlds::Node> document = read_settings(log, choices, result.problems);
+  worlds::WorldFile file;
+  if (document) {
+    for (const std::string& assignment : choices.overrides) {
+      check_override(assignment);
+      worlds::apply_override(*document, assignment, result.problems);
+    }
+    if (!choices.seed.empty()) worlds::apply_override(*document, "seed=" + choices.seed, result.problems);
+    select_estimators(*document, choices.estimators, registry, result.problems);
+    const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
+    worlds::read_fields(
+        *document, [&](worlds::Fields& fields) { worlds::describe_world(fields, file, schemas); },
+        result.problems);
+  }
+  if (document && choices.estimators.empty()) worlds::check_film(*document, file.world, result.problems);
+  if (!result.problems.empty()) return result;
+  result.world = std::move(file.world);
+  result.resolved = worlds::emit(*document);
+  return result;
+}
+
+std::string settings_of_replay(const std::string& resolved) {
+  std::vector<worlds::Problem> problems;
+  worlds::Node document = worlds::parse_document(resolved, "settings", problems).value();
+  std::erase_if(document.entries, [](const worlds::Node::Entry& entry) {
+    return entry.key != "estimators" && entry.key != "scoring" && entry.key != "film" && entry.key != "seed";
+  });
+  return worlds::emit(document);
+}
+
+}  // namespace harness

@@ -1,0 +1,104 @@
+#include "harness/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
+#include "harness/recording/recorder.hpp"
+#include "harness/recording/run_folder.hpp"
+#include "harness/recording/unfinished.hpp"
+#include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/progress.hpp"
+#include "harness/terminal/version.hpp"
+
+namespace harness {
+
+namespace {
+
+std::vector<std::string> names_of(const Believers& believers) {
+  std::vector<std::string> names;
+  for (const LiveEstimator& estimator : believers.estimators) names.push_back(estimator.name);
+  return names;
+}
+
+/// Whether something was left out, and so has now been told.
+bool tell_of(const Screening& screening) {
+  if (!screening.first_t()) return false;
+  fmt::print(stderr, "at {} s: a measurement that is none was left out ({}); more of the kind are counted\n",
+             *screening.first_t(), screening.named().front().first);
+  return true;
+}
+
+/// Runs the loop; what goes wrong on the way is told in the result, so that what there is can be scored.
+void run_loop(LiveLoop& loop, const LogDescription& log, const RunPlan& plan, RunResult& result) {
+  const InterruptGuard guard;
+  Progress progress(plan.quiet, log.start_t, plan.end_t);
+  try {
+    bool is_told = plan.quiet;
+    loop.run(InterruptGuard::flag(), [&](const LoopCounts& counts) {
+      progress.show(counts.t);
+      if (!is_told) is_told = tell_of(loop.screening());
+    });
+  } catch (const std::system_error&) {
+    throw;  // the recorder's: nothing more can be written
+  } catch (const BadInput& error) {
+    result.error = error.what();
+    result.bad_input = true;
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+}
+
+}  // namespace
+
+RunResult execute(Stream& stream, const LogDescription& log, Believers& believers, const RunPlan& plan,
+                  RunListener* follower) {
+  using Clock = std::chrono::steady_clock;
+  const std::vector<std::string> names = names_of(believers);
+  RunResult result;
+  believers.dead_reckoning = log.start.mean;
+  OutputFile(plan.folder / unfinished_mark).close();
+  Recorder recorder(plan.folder, log, names);
+  std::vector<RunListener*> listeners = {&recorder};
+  if (follower != nullptr) listeners.push_back(follower);
+  LiveLoop loop(stream, believers, listeners, log, plan.scoring);
+  const Clock::time_point begin = Clock::now();
+  run_loop(loop, log, plan, result);
+  const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
+  loop.finish();
+  recorder.close();
+
+  Summary& summary = result.summary;
+  summary.world = plan.name;
+  summary.seed = plan.seed;
+  summary.version = program_version();
+  summary.duration = loop.counts().t - log.start_t;
+  summary.updates = loop.counts().updates;
+  summary.interrupted = loop.counts().interrupted;
+  summary.trajectory_hash = trajectory_hash(plan.folder);
+  summary.realtime_factor = summary.duration / elapsed;
+  summary.rpe_interval = plan.scoring.rpe_interval;
+  for (const auto& [name, count] : named(stream.counts())) summary.log_counts.emplace_back(name, count);
+  for (const auto& [name, count] : loop.screening().named()) summary.left_out.emplace_back(name, count);
+  summary.left_out_t = loop.screening().first_t();
+  summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
+  for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
+  write_whole_file(plan.folder / "summary.json", to_json(summary));
+  std::filesystem::remove(plan.folder / unfinished_mark);
+  return result;
+}
+
+int exit_code(const RunResult& result) {
+  if (result.bad_input) return 2;
+  if (!result.error.empty()) return 1;
+  if (result.summary.interrupted) return 130;
+  const bool failed =
+      std::ranges::any_of(result.summary.failures, [](const std::string& f) { return !f.empty(); });
+  return failed ? 1 : 0;
+}
+
+}  // namespace harness

@@ -1,0 +1,209 @@
+#include "harness/score/score_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/files/csv_reader.hpp"
+#include "harness/score/true_names.hpp"
+#include "harness/statistics/divergence.hpp"
+#include "harness/stream/log_stream.hpp"
+
+namespace harness {
+
+namespace {
+
+constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t most_degrees = 1'000'000;  // [-] of one scan
+
+void score_trajectory(const std::filesystem::path& folder, double rpe_interval, EstimatorScore& score) {
+  const std::vector<PosePair> poses = read_poses(folder, score.name);
+  score.trajectory = absolute_trajectory_error(poses);
+  score.rpe = relative_pose_error(poses, rpe_interval);
+}
+
+void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, bool is_known,
+               EstimatorScore& score) {
+  const ScoredMap map = read_scored_map(folder, score.name);
+  const int mapped = static_cast<int>(map.landmarks.size()) + map.duplicates;
+  score.landmarks_mapped = mapped;
+  if (!is_known) return;
+  const std::vector<PointPair> points = pair_landmarks(map.landmarks, truth);
+  score.landmarks = score_points(points);
+  score.landmarks_spurious = mapped - static_cast<int>(points.size());
+}
+
+void score_associations(const std::filesystem::path& folder, EstimatorScore& score) {
+  const std::optional<Associations> associations = read_associations(folder, score.name);
+  if (!associations) return;
+  const auto share = [](std::int64_t part, std::int64_t whole) {
+    return whole > 0 ? std::optional(static_cast<double>(part) / static_cast<double>(whole)) : std::nullopt;
+  };
+  const auto& [named, left_out, names] = *associations;
+  score.associations_left_out = share(left_out, named + left_out);
+  if (names) score.associations_right = share(names->right(), named);
+}
+
+void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(
+      folder / (score.name + "_steps.csv"),
+      {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
+        "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
+       {"gated"},
+       {"innovation", "innovation_degrees", "weakened"}});
+  std::vector<double> blocks_touched;
+  std::vector<double> mean_residuals;
+  InnovationTest innovations;
+  while (rows.next()) {
+    const std::int64_t gated_before = score.gated.value_or(0);
+    blocks_touched.push_back(rows.number(10));
+    score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
+    score.links = rows.integer(12, 0, most);
+    score.relocations = rows.integer(13, 0, most);
+    if (!rows.is_empty(14)) mean_residuals.push_back(rows.number(14));
+    if (!rows.is_empty(15)) score.anchoring = rows.number(15);
+    if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
+    score.links_max = std::max(score.links_max.value_or(0), *score.links);
+    if (rows.has_newer()) score.weakened = rows.integer(19, 0, most);
+    if (rows.has_newer() && !rows.is_empty(17)) {
+      const auto degrees = static_cast<int>(rows.integer(18, 0, most_degrees));
+      innovations.add(rows.number(0), rows.number(17), degrees, *score.gated - gated_before);
+    }
+  }
+  score.diverged_t = innovations.fired_t();
+  score.worst_nis = innovations.worst();
+  score.blocks_touched = percentiles(blocks_touched);
+  score.mean_residual = percentiles(mean_residuals);
+}
+
+void score_times(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(folder / (score.name + "_times.csv"),
+                 {{"t", "update", "motion", "measurement", "sparsification", "mean_recovery"}, {}});
+  std::vector<double> updates;
+  std::array<std::vector<double>, stage_count> stages;
+  while (rows.next()) {
+    updates.push_back(rows.number(1));
+    for (int stage = 0; stage < stage_count; ++stage) {
+      if (!rows.is_empty(2 + stage))
+        stages.at(static_cast<std::size_t>(stage)).push_back(rows.number(2 + stage));
+    }
+  }
+  score.update_us = percentiles(updates);
+  std::ranges::transform(stages, score.stage_us.begin(),
+                         [](std::vector<double>& us) { return percentiles(us); });
+}
+
+/// Gathers a mean, and remembers the last value.
+struct Mean {
+  double sum = 0.0;
+  int count = 0;
+  std::optional<double> last;
+
+  void add(const CsvReader& rows, int column) {
+    last.reset();
+    if (rows.is_empty(column)) return;
+    last = rows.number(column);
+    sum += *last;
+    ++count;
+  }
+  std::optional<double> mean() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
+};
+
+void score_consistency(const std::filesystem::path& folder, EstimatorScore& score) {
+  CsvReader rows(
+      folder / (score.name + "_consistency.csv"),
+      {{"t", "nees_pose", "nees_landmark", "landmarks_scored", "landmarks_mapped", "memory_bytes"}, {}});
+  Mean pose;
+  Mean landmark;
+  while (rows.next()) {
+    pose.add(rows, 1);
+    landmark.add(rows, 2);
+    // Without truth nothing is known about the belief.
+    if (rows.is_empty(1) && score.trajectory.rmse) {
+      ++score.improper_beliefs;
+      if (!score.improper_t) score.improper_t = rows.number(0);
+    }
+    if (pose.last.value_or(0.0) > highest_nees_pose() && !score.diverged_nees_t)
+      score.diverged_nees_t = rows.number(0);
+    score.memory_bytes = rows.integer(5, 0, most);
+  }
+  score.nees_pose = pose.mean();
+  score.nees_pose_final = pose.last;
+  score.nees_landmark = landmark.mean();
+  score.nees_landmark_final = landmark.last;
+}
+
+}  // namespace
+
+std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name) {
+  CsvReader rows =
+      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
+  std::vector<TimedPose> poses;
+  while (rows.next()) {
+    const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
+    poses.push_back({rows.number(0), {rows.number(1), rows.number(2), theta}});
+  }
+  return poses;
+}
+
+std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<PosePair> poses;
+  if (!std::filesystem::exists(folder / "truth.csv")) return poses;
+  TruthReader truth(folder);
+  for (const TimedPose& pose : read_trajectory(folder, name)) {
+    const std::optional<TruePose> true_pose = truth.at(pose.t);
+    if (true_pose) poses.push_back({pose.t, pose.T_world_robot, true_pose->T_world_robot});
+  }
+  return poses;
+}
+
+std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name) {
+  CsvReader rows(folder / (name + "_map.csv"), {{"landmark", "x", "y", "cov_xx", "cov_xy", "cov_yy"}, {}});
+  std::vector<MapRecord> map;
+  while (rows.next()) {
+    const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
+    map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
+    if (rows.is_empty(3)) continue;
+    // One by one: Eigen does not let a list of coefficients be broken off, as a cell that is no number would.
+    Eigen::Matrix2d covariance;
+    covariance(0, 0) = rows.number(3);
+    covariance(0, 1) = covariance(1, 0) = rows.number(4);
+    covariance(1, 1) = rows.number(5);
+    map.back().covariance = covariance;
+  }
+  return map;
+}
+
+std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth) {
+  std::vector<PointPair> points;
+  for (const MapRecord& landmark : map) {
+    const auto it = std::ranges::lower_bound(truth, landmark.landmark, {}, &TrueLandmark::landmark);
+    if (it != truth.end() && it->landmark == landmark.landmark)
+      points.push_back({landmark.mean, it->position});
+  }
+  return points;
+}
+
+RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
+                      double rpe_interval) {
+  const bool landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
+  const std::vector<TrueLandmark> landmarks =
+      landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
+  RunScore run;
+  run.odometry.name = "odometry";
+  score_trajectory(folder, rpe_interval, run.odometry);
+  for (const std::string& name : estimators) {
+    EstimatorScore score;
+    score.name = name;
+    score_trajectory(folder, rpe_interval, score);
+    score_map(folder, landmarks, landmarks_are_known, score);
+    score_associations(folder, score);
+    score_steps(folder, score);
+    score_times(folder, score);
+    score_consistency(folder, score);
+    run.estimators.push_back(std::move(score));
+  }
+  return run;
+}
+
+}  // namespace harness

@@ -1,0 +1,158 @@
+#include "harness/score/scoreboard.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "harness/files/text_table.hpp"
+#include "harness/statistics/divergence.hpp"
+
+namespace harness {
+
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+std::string number(std::optional<double> value, int decimals, double scale = 1.0) {
+  if (value) *value *= scale;
+  return number_cell(value, decimals);
+}
+
+template <class Integer>
+std::string count(const std::optional<Integer>& value) {
+  return value ? fmt::format("{}", *value) : "-";
+}
+
+std::string memory(const std::optional<std::int64_t>& bytes) {
+  return bytes ? fmt::format("{:.1f}", static_cast<double>(*bytes) / 1024.0) : "-";
+}
+
+std::optional<double> part(const std::optional<Percentiles>& values, double Percentiles::*which) {
+  return values ? std::optional((*values).*which) : std::nullopt;
+}
+
+TextRow accuracy_row(const EstimatorScore& score) {
+  return {score.name,
+          count(score.landmarks_mapped),
+          number(score.landmarks.rmse, 3),
+          number(score.landmarks.rmse_aligned, 3),
+          number(score.trajectory.rmse, 3),
+          number(score.rpe.translation, 4),
+          number(score.rpe.rotation, 3, degrees),
+          number(score.nees_pose, 2),
+          number(score.nees_landmark, 2)};
+}
+
+TextRow cost_row(const EstimatorScore& score) {
+  return {score.name,
+          number(part(score.update_us, &Percentiles::p50), 1),
+          number(part(score.update_us, &Percentiles::p95), 1),
+          number(part(score.update_us, &Percentiles::p99), 1),
+          number(part(score.update_us, &Percentiles::max), 1),
+          number(part(score.blocks_touched, &Percentiles::p50), 0),
+          number(part(score.blocks_touched, &Percentiles::max), 0),
+          count(score.links),
+          count(score.active_max),
+          memory(score.memory_bytes)};
+}
+
+/// What the reader of the log left out or bridged; empty if nothing.
+std::string log_line(const Summary& summary) {
+  if (summary.log_counts.empty()) return "";
+  std::string text;
+  for (const auto& [name, value] : summary.log_counts)
+    text += fmt::format("{}{} {}", text.empty() ? "\nLeft out of the log, or bridged: " : ", ", name, value);
+  return text + '\n';
+}
+
+/// What was not given to the estimators, a line for each kind; empty if nothing.
+std::string left_out_line(const Summary& summary) {
+  if (summary.left_out.empty()) return "";
+  std::string text =
+      fmt::format("\nNot given to the estimators, from {} s on:\n", summary.left_out_t.value_or(0.0));
+  for (const auto& [name, value] : summary.left_out) text += fmt::format("  {} {}\n", name, value);
+  return text;
+}
+
+/// Estimators that have diverged, and those whose belief was none; empty if all is well.
+std::string divergence_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (score.diverged_t)
+      text += fmt::format("{} diverged at {} s: it does not see what it expects (NIS up to {:.3g})\n",
+                          score.name, *score.diverged_t, score.worst_nis.value_or(0.0));
+    if (score.diverged_nees_t)
+      text += fmt::format("{} diverged by {} s: the NEES of its pose is above {:.1f}\n", score.name,
+                          *score.diverged_nees_t, highest_nees_pose());
+    if (score.improper_beliefs > 0)
+      text += fmt::format("{} had no positive definite belief at {} scoring times, the first at {} s\n",
+                          score.name, score.improper_beliefs, score.improper_t.value_or(0.0));
+  }
+  return text.empty() ? text : '\n' + text;
+}
+
+/// What the estimators have counted of this sort, if it is not zero; empty if none has.
+std::string count_line(const Summary& summary, std::string_view what,
+                       std::optional<std::int64_t> EstimatorScore::*count) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if ((score.*count).value_or(0) > 0)
+      text += fmt::format("{} {} {}", text.empty() ? fmt::format("\n{}:", what) : ",", score.name,
+                          *(score.*count));
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+std::string gate_line(const Summary& summary) {
+  return count_line(summary, "Observations left out by the gate", &EstimatorScore::gated) +
+         count_line(summary, "Observations that counted less", &EstimatorScore::weakened);
+}
+
+/// What the estimators that give names of their own made of the observations; empty without such.
+std::string association_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (!score.associations_left_out) continue;
+    text += fmt::format("\nAssociations of {}: {} % right, {} % of the observations left out", score.name,
+                        number(score.associations_right, 2, 100.0),
+                        number(score.associations_left_out, 2, 100.0));
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+}  // namespace
+
+std::vector<TextRow> accuracy_table(const Summary& summary) {
+  std::vector<TextRow> accuracy = {{"estimator", "landmarks", "map RMSE [m]", "aligned [m]", "ATE [m]",
+                                    "RPE [m]", "RPE [deg]", "NEES pose", "NEES map"}};
+  for (const EstimatorScore& score : summary.score.estimators) accuracy.push_back(accuracy_row(score));
+  accuracy.push_back(accuracy_row(summary.score.odometry));
+  return accuracy;
+}
+
+std::vector<TextRow> cost_table(const Summary& summary) {
+  std::vector<TextRow> cost = {{"update", "p50 [us]", "p95 [us]", "p99 [us]", "max [us]", "blocks p50",
+                                "blocks max", "links", "active", "memory [KiB]"}};
+  for (const EstimatorScore& score : summary.score.estimators) cost.push_back(cost_row(score));
+  return cost;
+}
+
+std::string scoreboard(const Summary& summary) {
+  const std::vector<TextRow> cost = cost_table(summary);
+  std::string text = fmt::format("{}, seed {}: {:.1f} s, {} updates, {:.1f} times real time{}\n\n",
+                                 summary.world, summary.seed, summary.duration, summary.updates,
+                                 summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
+  text += text_table(accuracy_table(summary));
+  if (cost.size() > 1) text += '\n' + text_table(cost);
+  text += log_line(summary) + left_out_line(summary) + gate_line(summary) + association_lines(summary) +
+          divergence_lines(summary);
+  for (std::size_t i = 0; i < summary.failures.size(); ++i) {
+    if (!summary.failures[i].empty())
+      text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);
+  }
+  return text;
+}
+
+}  // namespace harness

@@ -1,0 +1,80 @@
+#include "harness/simulation/fault_injection.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace harness {
+
+namespace {
+
+using worlds::Fault;
+using worlds::FaultKind;
+
+// Times of the run are whole physics steps; a time in a file is what is nearest to its decimals.
+constexpr double rounding = 1e-9;  // [s]
+
+bool has_come(const Fault& fault, double t) { return t >= fault.at - rounding; }
+
+double bad_range(worlds::BadValue value) {
+  constexpr double absurd = 1e6;  // [m]
+  switch (value) {
+    case worlds::BadValue::nan:
+      return std::numeric_limits<double>::quiet_NaN();
+    case worlds::BadValue::infinite:
+      return std::numeric_limits<double>::infinity();
+    case worlds::BadValue::absurd:
+      break;
+  }
+  return absurd;
+}
+
+}  // namespace
+
+FaultInjection::FaultInjection(const std::vector<Fault>& faults) {
+  for (const Fault& fault : faults) faults_.push_back({fault});
+}
+
+std::optional<worlds::Placement> FaultInjection::kidnapping(double t) {
+  std::optional<worlds::Placement> last;
+  for (auto& [fault, is_done] : faults_) {
+    if (fault.kind != FaultKind::kidnapping || is_done || !has_come(fault, t)) continue;
+    is_done = true;
+    last = fault.to;
+  }
+  return last;
+}
+
+bool FaultInjection::is_silent(worlds::FaultySensor sensor, double t) const {
+  for (const auto& [fault, is_done] : faults_) {
+    if (fault.kind == FaultKind::silence && fault.sensor == sensor && has_come(fault, t) &&
+        t < fault.at + fault.duration - rounding)
+      return true;
+  }
+  return false;
+}
+
+WheelJumps FaultInjection::encoder_jumps(double t) const {
+  WheelJumps jumps;
+  for (const auto& [fault, is_done] : faults_) {
+    if (fault.kind != FaultKind::encoder_jump || !has_come(fault, t)) continue;
+    (fault.wheel == worlds::Wheel::left ? jumps.left : jumps.right) += fault.jump;
+  }
+  return jumps;
+}
+
+void FaultInjection::spoil(seif::Scan& scan) {
+  if (scan.observations.empty()) return;
+  seif::Observation& seen = scan.observations.front();
+  for (auto& [fault, is_done] : faults_) {
+    const bool spoils = fault.kind == FaultKind::bad_observation || fault.kind == FaultKind::outlier;
+    if (!spoils || is_done || !has_come(fault, scan.t)) continue;
+    is_done = true;
+    if (fault.kind == FaultKind::bad_observation) {
+      seen.range = bad_range(fault.value);
+    } else {
+      seen.bearing = seif::wrap_angle(seen.bearing + fault.size * std::sqrt(seen.covariance(1, 1)));
+    }
+  }
+}
+
+}  // namespace harness

@@ -1,0 +1,198 @@
+#include "harness/simulation/simulated_stream.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "sensors/random_stream.hpp"
+
+namespace harness {
+
+namespace {
+
+seif::Pose2 pose_of(const worlds::Placement& placement) {
+  return {placement.position.x(), placement.position.y(), placement.heading};
+}
+
+sensors::WheelEncoders make_encoders(const worlds::World& world) {
+  const worlds::Encoders& encoders = world.encoders;
+  std::mt19937_64 random = sensors::random_stream(world.seed, "encoder_systematic");
+  std::normal_distribution<double> normal;
+  const double diameter_error = encoders.diameter_ratio_sd * normal(random);
+  const double track_error = encoders.track_ratio_sd * normal(random);
+  sensors::WheelEncoderOptions options;
+  options.wheel_radius = world.robot.wheel_radius;
+  options.track = world.robot.track;
+  options.ticks_per_revolution = encoders.ticks_per_revolution;
+  options.distance_sd = encoders.distance_sd;
+  options.diameter_ratio = encoders.calibrated ? 1.0 : encoders.diameter_ratio + diameter_error;
+  options.track_ratio = encoders.calibrated ? 1.0 : encoders.track_ratio + track_error;
+  return {options, sensors::random_stream(world.seed, "encoders")};
+}
+
+sensors::LandmarkSensor make_landmark_sensor(const worlds::World& world) {
+  const worlds::LandmarkSensor& sensor = world.landmark_sensor;
+  sensors::LandmarkSensorOptions options;
+  options.T_robot_sensor = pose_of(sensor.mount);
+  options.max_range = sensor.max_range;
+  options.fov = sensor.fov;
+  options.range_sd = sensor.range_sd;
+  options.range_sd_per_m = sensor.range_sd_per_m;
+  options.bearing_sd = sensor.bearing_sd;
+  options.miss_probability = sensor.miss_probability;
+  options.false_detections = sensor.false_detections;
+  options.misread_probability = sensor.misread_probability;
+  options.hides_ids = sensor.ids == worlds::LandmarkIds::hidden;
+  options.first_false_id = static_cast<seif::LandmarkId>(world.landmarks.size());
+  return {options, sensors::random_stream(world.seed, "landmark_sensor")};
+}
+
+/// Drawn from N(truth, P0), so that the filters' belief at the start is right.
+seif::PoseEstimate draw_start(const worlds::World& world) {
+  std::mt19937_64 random = sensors::random_stream(world.seed, "start_estimate");
+  std::normal_distribution<double> normal;
+  const worlds::StartEstimate& sd = world.start_estimate;
+  seif::PoseEstimate start;
+  start.mean = pose_of(world.robot.start);
+  start.mean.x += sd.x_sd * normal(random);
+  start.mean.y += sd.y_sd * normal(random);
+  start.mean.theta = seif::wrap_angle(start.mean.theta + sd.heading_sd * normal(random));
+  start.covariance =
+      Eigen::Vector3d(sd.x_sd * sd.x_sd, sd.y_sd * sd.y_sd, sd.heading_sd * sd.heading_sd).asDiagonal();
+  return start;
+}
+
+std::int64_t checked_rate(const char* what, int rate, int step_rate) {
+  if (rate >= 1 && rate <= step_rate) return rate;
+  throw std::invalid_argument(
+      fmt::format("the {} rate of {} Hz is not from 1 Hz to the physics' {} Hz", what, rate, step_rate));
+}
+
+/// A log keeps one triangle of a covariance. What the estimators get live must be what a replay gives them.
+template <class Matrix>
+void make_symmetric(Matrix& covariance) {
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) covariance(i, j) = covariance(j, i);
+  }
+}
+
+}  // namespace
+
+SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose)
+    : SimulatedStream(world, std::move(steering_pose), sim::make_simulator(world)) {}
+
+SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
+                                 std::unique_ptr<sim::Simulator> simulator)
+    : world_(world),
+      simulator_(std::move(simulator)),
+      steering_pose_(std::move(steering_pose)),
+      encoders_(make_encoders(world)),
+      landmark_sensor_(make_landmark_sensor(world)),
+      drive_(world.drive, world.robot, sensors::random_stream(world.seed, "drive"),
+             [this](const Eigen::Vector2d& p_robot_goal, double clearance) {
+               return way_is_clear(p_robot_goal, clearance);
+             }),
+      faults_(world.faults),
+      line_of_sight_([this](const Eigen::Vector2d& p_world_sensor, seif::LandmarkId landmark) {
+        return simulator_->line_of_sight(p_world_sensor, landmark);
+      }),
+      description_(describe()),
+      last_step_(std::llround(world.duration * world.physics.step_rate)),
+      odometry_clock_{checked_rate("odometry", world.encoders.rate, world.physics.step_rate),
+                      world.physics.step_rate},
+      scan_clock_{checked_rate("scan", world.landmark_sensor.rate, world.physics.step_rate),
+                  world.physics.step_rate} {}
+
+LogDescription SimulatedStream::describe() const {
+  const worlds::LandmarkSensor& sensor = world_.landmark_sensor;
+  LogDescription log;
+  log.name = world_.name;
+  log.T_robot_sensor = pose_of(sensor.mount);
+  log.noise = {sensor.range_sd, sensor.range_sd_per_m, sensor.bearing_sd};
+  log.max_range = sensor.max_range;
+  log.start = draw_start(world_);
+  log.has_truth = true;
+  log.has_wheel_angles = true;
+  log.known_association = sensor.ids == worlds::LandmarkIds::known;
+  log.has_true_ids =
+      !log.known_association || sensor.false_detections > 0.0 || sensor.misread_probability > 0.0;
+  log.true_start = truth();
+  log.landmarks.emplace();
+  for (const worlds::Landmark& landmark : world_.landmarks) {
+    const auto id = static_cast<seif::LandmarkId>(log.landmarks->size());
+    log.landmarks->push_back({id, landmark.position, landmark.radius});
+  }
+  return log;
+}
+
+double SimulatedStream::t() const { return static_cast<double>(step_) / world_.physics.step_rate; }
+
+TruePose SimulatedStream::truth() const {
+  const sim::RobotState robot = simulator_->robot();
+  return {t(), {robot.position.x(), robot.position.y(), robot.heading}, robot.left_wheel, robot.right_wheel};
+}
+
+bool SimulatedStream::way_is_clear(const Eigen::Vector2d& p_robot_goal, double clearance) const {
+  const seif::Pose2 T_world_robot = truth().T_world_robot;
+  const Eigen::Vector2d p_world_goal = T_world_robot * p_robot_goal;
+  const Eigen::Vector2d free = 0.5 * world_.ground_size - Eigen::Vector2d::Constant(clearance);
+  if ((p_world_goal.cwiseAbs().array() > free.array()).any()) return false;
+  return simulator_->path_is_clear({T_world_robot.x, T_world_robot.y}, p_world_goal, clearance);
+}
+
+void SimulatedStream::steer() {
+  if (!must_steer_) return;
+  must_steer_ = false;
+  command_ = drive_.command(t(), steering_pose_ ? steering_pose_() : truth().T_world_robot);
+}
+
+bool SimulatedStream::next(Event& event) {
+  while (true) {
+    // Both may be due at one step: odometry comes first.
+    if (odometry_clock_.next_step() <= step_) {
+      must_steer_ = true;
+      ++odometry_clock_.ticks;
+      if (faults_.is_silent(worlds::FaultySensor::encoders, t())) continue;
+      read_encoders(memory_.odometry(event));
+      return true;
+    }
+    if (scan_clock_.next_step() <= step_) {
+      ++scan_clock_.ticks;
+      if (faults_.is_silent(worlds::FaultySensor::landmark_sensor, t())) continue;
+      scan(memory_.scan(event));
+      return true;
+    }
+    if (step_ >= last_step_) return false;
+    if (const auto place = faults_.kidnapping(t())) simulator_->place(*place);
+    steer();
+    simulator_->step(command_);
+    ++step_;
+  }
+}
+
+void SimulatedStream::read_encoders(OdometryEvent& event) {
+  event.truth = truth();
+  const WheelJumps jumps = faults_.encoder_jumps(t());
+  event.odometry = encoders_.read(event.truth->t, event.truth->left_wheel + jumps.left,
+                                  event.truth->right_wheel + jumps.right);
+  make_symmetric(event.odometry.covariance);
+}
+
+void SimulatedStream::scan(ScanEvent& event) {
+  event.truth = truth();
+  const seif::Pose2 T_world_sensor = event.truth->T_world_robot * description_.T_robot_sensor;
+  simulator_->landmarks_within({T_world_sensor.x, T_world_sensor.y}, world_.landmark_sensor.max_range,
+                               in_range_);
+  candidates_.clear();
+  for (const int index : in_range_)
+    candidates_.push_back({index, world_.landmarks[static_cast<std::size_t>(index)].position});
+  landmark_sensor_.scan(event.truth->t, event.truth->T_world_robot, candidates_, line_of_sight_, event.scan,
+                        event.true_ids);
+  for (seif::Observation& observation : event.scan.observations) make_symmetric(observation.covariance);
+  faults_.spoil(event.scan);
+}
+
+}  // namespace harness

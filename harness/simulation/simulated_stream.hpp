@@ -1,0 +1,79 @@
+// A simulated world as a stream: physics, drive and sensors, advanced from one measurement to the next.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "harness/simulation/drive.hpp"
+#include "harness/simulation/fault_injection.hpp"
+#include "harness/stream/log_description.hpp"
+#include "harness/stream/stream.hpp"
+#include "sensors/landmark_sensor.hpp"
+#include "sensors/wheel_encoders.hpp"
+#include "sim/simulator.hpp"
+#include "worlds/world.hpp"
+
+namespace harness {
+
+/// The pose that steers, T_world_robot, after everything that next() gave so far. Empty: the truth.
+using SteeringPose = std::function<seif::Pose2()>;
+
+/// Everything that draws has a random stream of its own: "encoders", "encoder_systematic", "landmark_sensor",
+/// "start_estimate", "drive".
+class SimulatedStream final : public Stream {
+ public:
+  /// Throws std::invalid_argument if a rate is not from 1 Hz to the physics' step rate.
+  SimulatedStream(const worlds::World& world, SteeringPose steering_pose);
+  /// With a simulator of this world that somebody else has made.
+  SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
+                  std::unique_ptr<sim::Simulator> simulator);
+  SimulatedStream(const SimulatedStream&) = delete;
+  SimulatedStream& operator=(const SimulatedStream&) = delete;
+
+  const LogDescription& description() const { return description_; }
+
+  /// The robot is steered at each odometry reading, with what is believed after it.
+  bool next(Event& event) override;
+
+ private:
+  /// Something that happens so often in a second, counted in physics steps: no time is ever accumulated.
+  struct Clock {
+    std::int64_t rate = 1;       // [Hz]
+    std::int64_t step_rate = 1;  // [Hz]
+    std::int64_t ticks = 1;      // [-] the number of the next one; the first is one period after the start
+    std::int64_t next_step() const { return ticks * step_rate / rate; }
+  };
+
+  double t() const;  // [s]
+  TruePose truth() const;
+  void steer();
+  void read_encoders(OdometryEvent& event);
+  void scan(ScanEvent& event);
+  bool way_is_clear(const Eigen::Vector2d& p_robot_goal, double clearance) const;
+  LogDescription describe() const;
+
+  worlds::World world_;
+  std::unique_ptr<sim::Simulator> simulator_;
+  SteeringPose steering_pose_;
+  sensors::WheelEncoders encoders_;
+  sensors::LandmarkSensor landmark_sensor_;
+  Drive drive_;
+  FaultInjection faults_;
+  sensors::LineOfSight line_of_sight_;
+  std::int64_t step_ = 0;
+  LogDescription description_;
+
+  std::int64_t last_step_;
+  Clock odometry_clock_;
+  Clock scan_clock_;
+  bool must_steer_ = true;
+  sim::Command command_;
+  std::vector<int> in_range_;                       // reused from scan to scan
+  std::vector<sensors::LandmarkTruth> candidates_;  // reused from scan to scan
+  ScanMemory memory_;
+};
+
+}  // namespace harness

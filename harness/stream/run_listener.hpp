@@ -1,0 +1,78 @@
+// Who follows a run as it goes: the recorder, a film. And what they are told.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "harness/stream/stream.hpp"
+
+namespace harness {
+
+inline constexpr int stage_count = 4;  // [-] of seif::Stage
+
+/// What an update cost. [us]
+struct UpdateTimes {
+  double update = 0.0;                                         // all of it
+  std::array<std::optional<double>, stage_count> stages = {};  // those that the filter has
+};
+
+/// An estimator after an update: the motion since the last scan, and the scan.
+struct UpdateRecord {
+  double t = 0.0;                                 // [s]
+  seif::Pose2 est_pose;                           // T_world_robot
+  std::optional<Eigen::Matrix3d> est_covariance;  // (3 x 3) of the pose, where the filter has it at hand
+  std::optional<seif::Pose2> true_pose;           // where it is known
+  std::int64_t blocks_touched = 0;                // [-] by this update
+  int active_landmarks = 0;                       // [-]
+  std::int64_t links = 0;                         // [-]
+  std::int64_t relocations = 0;                   // [-] so far
+  std::int64_t gated = 0;                         // [-] observations left out so far
+  std::int64_t weakened = 0;                      // [-] observations that counted less, so far
+  std::optional<double> mean_residual;            // [-] as in seif::Counts
+  std::optional<double> anchoring;                // [nat] so far
+  std::optional<double> innovation;               // [-] v' S^-1 v of this scan, as in seif::Counts
+  int innovation_degrees = 0;                     // [-] of freedom
+  UpdateTimes times;
+  /// What Estimator::associations() tells, of an estimator that does not need names. As long as the call.
+  std::optional<std::span<const seif::LandmarkId>> associations;
+};
+
+/// How well an estimator's belief fits the truth, at a scoring time. NEES per degree of freedom: 1 is right.
+struct ConsistencyRecord {
+  double t = 0.0;                       // [s]
+  std::optional<double> nees_pose;      // [-]
+  std::optional<double> nees_landmark;  // [-] mean over the landmarks scored
+  int landmarks_scored = 0;             // [-]
+  int landmarks_mapped = 0;             // [-]
+  std::int64_t memory_bytes = 0;        // [byte]
+};
+
+/// A landmark of a finished map.
+struct MapRecord {
+  seif::LandmarkId landmark = seif::no_landmark;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // p_world_landmark [m]
+  std::optional<Eigen::Matrix2d> covariance;       // (2 x 2) [m^2]
+};
+
+/// Told of everything in the order in which it happens: of odometry and of a scan before any estimator takes
+/// it in, then of each estimator's update by that scan; at the end, and at scoring times, of what was found
+/// then.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  virtual void odometry(const OdometryEvent& event) = 0;
+  virtual void scan(const ScanEvent& event) = 0;
+  virtual void dead_reckoning(double /*t*/, const seif::Pose2& /*T_world_robot*/) {}
+  virtual void update(std::size_t estimator, const UpdateRecord& record) = 0;
+  virtual void consistency(std::size_t /*estimator*/, const ConsistencyRecord& /*record*/) {}
+  /// A scoring time is over.
+  virtual void scored() {}
+  /// Of an estimator, once, at the end.
+  virtual void map(std::size_t /*estimator*/, std::span<const MapRecord> /*landmarks*/) {}
+};
+
+}  // namespace harness

@@ -1,0 +1,353 @@
+#include "seif/association/associating_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace seif {
+namespace {
+
+constexpr double cells_in_reach = 4.0;            // [-] how finely the grid divides what the robot sees
+constexpr std::size_t most_asked = 64;            // [-] landmarks near the observations of a scan; at least
+constexpr std::size_t few_per_observation = 3;    // [-] for each of them
+constexpr std::size_t most_per_observation = 12;  // [-]
+constexpr std::size_t most_wanted = 8;            // [-] landmarks that a scan may ask to have at hand
+constexpr int patience = 30;                      // [-] scans that something new waits for these
+constexpr int fewest_expected = 40;               // [-] scans before a landmark may be taken out
+constexpr std::size_t most_suspicions = 32;       // [-] at a time
+constexpr int scans_to_merge = 5;                 // [-] that saw one of two
+constexpr int never = -1'000'000;                 // [-] of these, for two that were seen at once
+// Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
+constexpr double sure_reach = 0.8;
+constexpr double sure_bearing = 0.9;
+
+double largest_variance(const Eigen::Matrix2d& covariance) {
+  const double mean = 0.5 * covariance.trace();
+  const double half_difference = 0.5 * (covariance(0, 0) - covariance(1, 1));
+  return mean + std::hypot(half_difference, covariance(0, 1));
+}
+
+}  // namespace
+
+AssociatingFilter::AssociatingFilter(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
+                                     const AssociationOptions& options)
+    : filter_(std::move(filter)),
+      start_(setup.start),
+      T_robot_sensor_(setup.T_robot_sensor),
+      options_(options),
+      matcher_(options.match_probability, options.new_probability),
+      merge_gate_(chi_square_gate(1, options.merge_probability)),
+      tentative_(options.forget_after) {
+  // More than scans mostly need, so that none comes to ask for more when the map is long known.
+  suspicions_.reserve(most_suspicions);
+  for (auto* ids : {&at_hand_, &asked_, &wanted_}) ids->reserve(4 * most_asked);
+  near_.reserve(4 * most_asked);
+  pairs_.reserve(16 * most_asked);
+  const auto room = static_cast<Eigen::Index>(3 + 2 * most_asked);
+  Sigma_.resize(room, room);
+}
+
+void AssociatingFilter::motion_update(const Odometry& odometry) {
+  const Eigen::Matrix3d& R = odometry.covariance;
+  wander_ += R(0, 0) + R(1, 1) + reach_ * reach_ * R(2, 2);
+  filter_->motion_update(odometry);
+}
+
+void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
+  ++scan_;
+  widen_view(scan);
+  filter_->begin_association(scan.t);
+  tentative_.begin_scan(std::exchange(wander_, 0.0));
+  refresh_grid();
+  find_pairs(scan);
+  name(scan);
+  note_expected();
+  suspect();
+  merge();
+  filter_->want(wanted_);
+  filter_->measurement_update(named_, done);
+}
+
+/// The first scan that sees something says how large the cells of the grid are.
+void AssociatingFilter::widen_view(const Scan& scan) {
+  for (const Observation& observation : scan.observations) {
+    reach_ = std::max(reach_, observation.range);
+    widest_bearing_ = std::max(widest_bearing_, std::abs(observation.bearing));
+  }
+  constexpr double least_cell = 1e-3;  // [m]
+  if (!grid_ && !scan.observations.empty()) grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
+}
+
+/// Landmarks at hand may have moved; all others wait until they are.
+void AssociatingFilter::refresh_grid() {
+  filter_->landmarks_at_hand(at_hand_);
+  std::erase_if(at_hand_, [&](LandmarkId id) { return landmark(id).is_retired; });
+  for (const LandmarkId id : at_hand_) grid_->move(id, filter_->mean_of(id));
+}
+
+// Candidates.
+
+/// Mostly all that is seen is known, and a few landmarks near each observation explain it. Otherwise as many
+/// as may have to be thought of.
+void AssociatingFilter::find_pairs(const Scan& scan) {
+  const Eigen::Matrix3d P_x = pose_covariance_in_map();
+  const std::size_t each = std::clamp(most_asked / std::max<std::size_t>(scan.observations.size(), 1),
+                                      few_per_observation, most_per_observation);
+  for (const std::size_t most : {few_per_observation, each}) {
+    find_candidates(scan, P_x, most);
+    options_.jointly ? matcher_.match_jointly() : matcher_.match_nearest();
+    if (matcher_.all_matched() || each == few_per_observation) return;
+  }
+}
+
+/// Of the pose in the map: without what the start is uncertain of, which moves the map with the pose.
+Eigen::Matrix3d AssociatingFilter::pose_covariance_in_map() const {
+  Eigen::Matrix3d P_x;
+  filter_->covariance_with({}, P_x);
+  if (!filter_->keeps_start_uncertainty()) return P_x;
+  const Pose2 pose = filter_->pose();
+  Eigen::Matrix3d J_wrt_start = Eigen::Matrix3d::Identity();
+  J_wrt_start.topRightCorner<2, 1>() << start_.mean.y - pose.y, pose.x - start_.mean.x;
+  return P_x - J_wrt_start * start_.covariance * J_wrt_start.transpose();
+}
+
+void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most) {
+  asked_.clear();
+  wanted_.clear();
+  pairs_.clear();
+  seen_.clear();
+  for (const Observation& observation : scan.observations) gather_near(observation, P_x, most);
+  const auto n = static_cast<Eigen::Index>(3 + 2 * asked_.size());
+  if (Sigma_.rows() < n) Sigma_.resize(2 * n, 2 * n);
+  filter_->covariance_with(asked_, Sigma_.topLeftCorner(n, n));
+  blocks_touched_ += static_cast<std::int64_t>((asked_.size() + 1) * (asked_.size() + 2) / 2);
+  matcher_.begin(static_cast<int>(seen_.size()), Sigma_.topLeftCorner(n, n));
+  for (const Pair& pair : pairs_) {
+    const Observation& observation = scan.observations[static_cast<std::size_t>(pair.observation)];
+    matcher_.add(pair.observation, pair.landmark,
+                 filter_->expect(asked_[static_cast<std::size_t>(pair.landmark)], observation),
+                 observation.covariance);
+  }
+}
+
+/// The landmarks about where the observation says that something is, as far away as pose, landmark and sensor
+/// may err.
+void AssociatingFilter::gather_near(const Observation& observation, const Eigen::Matrix3d& P_x,
+                                    std::size_t most) {
+  const InverseObservation inverse = invert_observation(filter_->pose(), T_robot_sensor_, observation);
+  const Eigen::Matrix2d by_sensor =
+      inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
+  const Eigen::Matrix2d in_world = inverse.J_wrt_pose * P_x * inverse.J_wrt_pose.transpose() + by_sensor;
+  const double variance = std::max(largest_variance(in_world), largest_variance(by_sensor));
+  seen_.push_back(
+      {inverse.p_world_landmark, largest_variance(by_sensor), std::sqrt(variance * matcher_.gate())});
+  // The landmark is taken to be known no worse than this.
+  const double radius = std::sqrt(2.0 * variance * matcher_.widest_gate());
+  grid_->find_near(inverse.p_world_landmark, radius, most, near_);
+  for (const LandmarkGrid::Near& near : near_) {
+    if (filter_->is_at_hand(near.landmark))
+      pairs_.push_back({static_cast<int>(seen_.size()) - 1, number_of(near.landmark)});
+  }
+}
+
+/// Among asked_, to which it is added if need be.
+int AssociatingFilter::number_of(LandmarkId id) {
+  const auto found = std::ranges::find(asked_, id);
+  const auto number = static_cast<int>(found - asked_.begin());
+  if (found == asked_.end()) asked_.push_back(id);
+  return number;
+}
+
+// Names.
+
+void AssociatingFilter::name(const Scan& scan) {
+  names_.assign(scan.observations.size(), no_landmark);
+  named_.t = scan.t;
+  named_.observations.clear();
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const int match = matcher_.match(static_cast<int>(i));
+    names_[i] = match == ScanMatcher::none ? name_if_new(i) : asked_[static_cast<std::size_t>(match)];
+    if (names_[i] == no_landmark) continue;
+    Landmark& seen = landmark(names_[i]);
+    ++seen.seen;
+    ++seen.expected;
+    seen.last_seen = scan_;
+    seen.farthest = std::max(seen.farthest, scan.observations[i].range);
+    named_.observations.push_back(scan.observations[i]);
+    named_.observations.back().landmark = names_[i];
+  }
+}
+
+/// The name of a landmark that has just joined the map, if it is time.
+LandmarkId AssociatingFilter::name_if_new(std::size_t observation) {
+  if (matcher_.may_be_known(static_cast<int>(observation))) return no_landmark;
+  const Seen& seen = seen_[observation];
+  const TentativeLandmarks::Sighting sighting = tentative_.see(seen.p_world, seen.variance, matcher_.gate());
+  if (sighting.times < options_.admit_after) return no_landmark;
+  if (want_near(seen) && sighting.age < patience) return no_landmark;
+  tentative_.admit_last();
+  const auto id = static_cast<LandmarkId>(landmarks_.size());
+  landmarks_.push_back({});
+  grid_->add(seen.p_world);
+  return id;
+}
+
+/// What may be of it and is not at hand; whether there is such.
+bool AssociatingFilter::want_near(const Seen& seen) {
+  grid_->find_near(seen.p_world, seen.radius_by_pose, most_per_observation, near_);
+  std::erase_if(near_, [&](const LandmarkGrid::Near& near) {
+    return is_seen_now(near.landmark) || filter_->is_at_hand(near.landmark);
+  });
+  for (const LandmarkGrid::Near& near : near_) {
+    if (wanted_.size() < most_wanted) wanted_.push_back(near.landmark);
+  }
+  return !near_.empty();
+}
+
+// Those that should have been seen.
+
+void AssociatingFilter::note_expected() {
+  const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
+  for (const LandmarkId id : at_hand_) {
+    if (is_seen_now(id)) continue;
+    const Eigen::Vector2d p_sensor = T_sensor_world * filter_->mean_of(id);
+    const bool is_in_view =
+        p_sensor.norm() <= sure_reach * landmark(id).farthest &&
+        std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
+    if (!is_in_view) continue;
+    const int expected = ++landmark(id).expected;
+    if (expected > fewest_expected && landmark(id).seen < options_.remove_below * expected) retire(id);
+  }
+}
+
+void AssociatingFilter::retire(LandmarkId id) {
+  landmark(id).is_retired = true;
+  grid_->remove(id);
+  std::erase_if(suspicions_, [&](const Suspicion& s) { return s.a == id || s.b == id; });
+}
+
+// Those that are one.
+
+/// Of each observation that might also be of a second landmark, and of one alone, which this scan does not
+/// see.
+void AssociatingFilter::suspect() {
+  for (Suspicion& s : suspicions_) {
+    if (is_seen_now(s.a) && is_seen_now(s.b)) s.scans = never;
+  }
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const int match = matcher_.match(static_cast<int>(i));
+    if (match == ScanMatcher::none) continue;
+    int other = ScanMatcher::none;
+    bool is_alone = true;
+    for (const Candidate& c : matcher_.candidates()) {
+      const LandmarkId id = asked_[static_cast<std::size_t>(c.landmark)];
+      if (c.observation != static_cast<int>(i) || c.landmark == match || is_seen_now(id)) continue;
+      if (!may_be_one(match, c.landmark)) continue;
+      is_alone = is_alone && other == ScanMatcher::none;
+      other = c.landmark;
+    }
+    if (other != ScanMatcher::none && is_alone) suspect(names_[i], asked_[static_cast<std::size_t>(other)]);
+  }
+}
+
+/// Whether they lie so near to each other, by the covariance of their distance. Numbers of the joint
+/// covariance.
+bool AssociatingFilter::may_be_one(int a, int b) const {
+  const int row_a = 3 + 2 * a;
+  const int row_b = 3 + 2 * b;
+  const Eigen::Matrix2d P = Sigma_.block<2, 2>(row_a, row_a) + Sigma_.block<2, 2>(row_b, row_b) -
+                            Sigma_.block<2, 2>(row_a, row_b) - Sigma_.block<2, 2>(row_b, row_a);
+  const Eigen::Vector2d apart = filter_->mean_of(asked_[static_cast<std::size_t>(a)]) -
+                                filter_->mean_of(asked_[static_cast<std::size_t>(b)]);
+  return apart.dot(P.inverse() * apart) <= merge_gate_;
+}
+
+void AssociatingFilter::suspect(LandmarkId seen, LandmarkId other) {
+  const LandmarkId a = std::min(seen, other);
+  const LandmarkId b = std::max(seen, other);
+  auto found = std::ranges::find_if(suspicions_, [&](const Suspicion& s) { return s.a == a && s.b == b; });
+  if (found == suspicions_.end()) {
+    if (suspicions_.size() == most_suspicions)
+      suspicions_.erase(std::ranges::min_element(suspicions_, {}, &Suspicion::last_scan));
+    suspicions_.push_back({a, b, 0, scan_});
+    found = suspicions_.end() - 1;
+  }
+  ++found->scans;
+  found->last_scan = scan_;
+}
+
+/// The one that was seen less goes, with its name.
+void AssociatingFilter::merge() {
+  while (true) {
+    const auto sure =
+        std::ranges::find_if(suspicions_, [](const Suspicion& s) { return s.scans >= scans_to_merge; });
+    if (sure == suspicions_.end()) return;
+    const auto [a, b, scans, last_scan] = *sure;
+    const LandmarkId goes = landmark(b).seen <= landmark(a).seen ? b : a;
+    const LandmarkId stays = goes == b ? a : b;
+    filter_->equate(stays, goes);
+    landmark(stays).seen += landmark(goes).seen;
+    retire(goes);
+    std::ranges::replace(names_, goes, stays);
+    for (Observation& observation : named_.observations) {
+      if (observation.landmark == goes) observation.landmark = stays;
+    }
+  }
+}
+
+// What the harness asks.
+
+Counts AssociatingFilter::counts() const {
+  Counts counts = filter_->counts();
+  counts.blocks_touched += blocks_touched_;
+  return counts;
+}
+
+std::size_t AssociatingFilter::memory_bytes() const {
+  return filter_->memory_bytes() + landmarks_.memory_bytes() + tentative_.memory_bytes() +
+         (grid_ ? grid_->memory_bytes() : 0) + sizeof(double) * static_cast<std::size_t>(Sigma_.size());
+}
+
+void AssociatingFilter::landmarks(std::span<const LandmarkId> landmarks,
+                                  std::vector<LandmarkEstimate>& out) const {
+  looked_up_.assign(landmarks.begin(), landmarks.end());
+  std::erase_if(looked_up_, [&](LandmarkId id) { return !is_in_map(id); });
+  filter_->landmarks(looked_up_, out);
+}
+
+void AssociatingFilter::couplings(LandmarkId of, std::vector<Coupling>& out) const {
+  out.clear();
+  if (of != no_landmark && !is_in_map(of)) return;
+  filter_->couplings(of, out);
+  std::erase_if(out, [&](const Coupling& c) { return c.other != no_landmark && !is_in_map(c.other); });
+}
+
+bool AssociatingFilter::is_in_map(LandmarkId id) const {
+  return id >= 0 && static_cast<std::size_t>(id) < landmarks_.size() && !landmark(id).is_retired;
+}
+
+std::vector<LandmarkEstimate> AssociatingFilter::map() const {
+  std::vector<LandmarkEstimate> map = filter_->map();
+  std::erase_if(map, [&](const LandmarkEstimate& estimate) { return !is_in_map(estimate.landmark); });
+  return map;
+}
+
+/// Without those that are not in the map: marginalised out.
+Eigen::MatrixXd AssociatingFilter::whole_belief_matrix() const {
+  Eigen::MatrixXd M = filter_->whole_belief_matrix();
+  std::vector<int> kept = {0, 1, 2};
+  std::vector<int> gone;
+  int row = 3;
+  for (const LandmarkEstimate& estimate : filter_->map()) {
+    std::vector<int>& to = is_in_map(estimate.landmark) ? kept : gone;
+    to.insert(to.end(), {row, row + 1});
+    row += 2;
+  }
+  if (gone.empty()) return M;
+  if (belief_matrix() == BeliefMatrix::covariance) return M(kept, kept);
+  const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd(M(gone, gone)));
+  return M(kept, kept) - M(kept, gone) * llt.solve(Eigen::MatrixXd(M(gone, kept)));
+}
+
+}  // namespace seif

@@ -1,0 +1,141 @@
+// A filter that is not told which landmark it sees: names each observation before a filter with known
+// correspondence takes it in.
+//
+//   scan -> candidates near where each observation says that something is -> pairs -> named scan -> filter
+//                                                    nothing fits -> tentative -> a new landmark
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "seif/association/associable_filter.hpp"
+#include "seif/association/landmark_grid.hpp"
+#include "seif/association/tentative_landmarks.hpp"
+#include "seif/chunked_array.hpp"
+
+namespace seif {
+
+struct AssociationOptions {
+  bool jointly = true;  // JCBB, or each observation for itself
+  /// [-] With this probability a right pair is left out.
+  double match_probability = 1e-3;
+  /// [-] An observation that is of no landmark, by its pairs, is taken for a new one only where a landmark is
+  /// as far away from it with no more than this probability. Between the two it says nothing.
+  double new_probability = 1e-6;
+  /// [-] With this probability two landmarks that are one are not found to be so, where but one of them is
+  /// seen.
+  double merge_probability = 1e-6;
+  int admit_after = 3;    // [-] scans that saw it until a landmark joins the map
+  int forget_after = 10;  // [-] scans that did not see it, until then, after which it is forgotten
+  /// [-] A landmark is taken out once it was seen in less than this share of the scans that should have seen
+  /// it.
+  double remove_below = 0.05;
+};
+
+/// Names are 0, 1, 2, .. in the order in which landmarks join. Those that were taken out, or are one with
+/// another, stay in the filter's belief but for its map, and are never seen again.
+class AssociatingFilter final : public Estimator {
+ public:
+  AssociatingFilter(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
+                    const AssociationOptions& options);
+
+  void motion_update(const Odometry& odometry) override;
+  void measurement_update(const Scan& scan, const StageDone& done) override;
+  bool needs_names() const override { return false; }
+  std::span<const LandmarkId> associations() const override { return names_; }
+  Pose2 pose() const override { return filter_->pose(); }
+  std::optional<Eigen::Matrix3d> pose_covariance() const override { return filter_->pose_covariance(); }
+  Counts counts() const override;
+  std::size_t memory_bytes() const override;
+  void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
+  BeliefMatrix belief_matrix() const override { return filter_->belief_matrix(); }
+  void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
+  Eigen::MatrixXd whole_belief_matrix() const override;
+  std::vector<LandmarkEstimate> map() const override;
+  std::optional<MarginalCovariances> marginal_covariances(
+      std::span<const LandmarkId> landmarks) const override {
+    return filter_->marginal_covariances(landmarks);
+  }
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> groups) const override {
+    return filter_->joint_covariances(groups);
+  }
+
+  const AssociableFilter& filter() const { return *filter_; }
+
+ private:
+  struct Landmark {
+    int seen = 0;      // [-] scans that saw it
+    int expected = 0;  // [-] scans that should have
+    int last_seen = 0;
+    double farthest = 0.0;  // [m] from which it was seen
+    bool is_retired = false;
+  };
+  /// Two landmarks that may be one, since only one of them is seen where both should be.
+  struct Suspicion {
+    LandmarkId a, b;
+    int scans = 0;  // [-] that saw one of them; many below zero once both were seen at once
+    int last_scan = 0;
+  };
+  struct Seen {
+    Eigen::Vector2d p_world;  // [m] where the observation says that something is
+    double variance;          // [m^2] of that, by the sensor's errors alone
+    double radius_by_pose;    // [m] within which the landmark may be, as far as the pose is uncertain
+  };
+  Landmark& landmark(LandmarkId id) { return landmarks_[static_cast<std::size_t>(id)]; }
+  const Landmark& landmark(LandmarkId id) const { return landmarks_[static_cast<std::size_t>(id)]; }
+  bool is_in_map(LandmarkId id) const;
+  bool is_seen_now(LandmarkId id) const { return landmark(id).last_seen == scan_; }
+
+  void refresh_grid();
+  void find_pairs(const Scan& scan);
+  void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most);
+  void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t most);
+  Eigen::Matrix3d pose_covariance_in_map() const;
+  int number_of(LandmarkId id);
+  bool want_near(const Seen& seen);
+  void name(const Scan& scan);
+  LandmarkId name_if_new(std::size_t observation);
+  void note_expected();
+  void suspect();
+  void suspect(LandmarkId seen, LandmarkId other);
+  bool may_be_one(int a, int b) const;
+  void merge();
+  void retire(LandmarkId id);
+  void widen_view(const Scan& scan);
+
+  std::unique_ptr<AssociableFilter> filter_;
+  PoseEstimate start_;
+  Pose2 T_robot_sensor_;
+  AssociationOptions options_;
+  ScanMatcher matcher_;
+  double merge_gate_;  // [-]
+  TentativeLandmarks tentative_;
+  std::optional<LandmarkGrid> grid_;  // made once it is known how far the robot sees
+  ChunkedArray<Landmark> landmarks_;  // by name
+  std::vector<Suspicion> suspicions_;
+  int scan_ = 0;
+  double wander_ = 0.0;                        // [m^2] since the last scan
+  double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]
+
+  // Of the latest scan; kept so that no update allocates.
+  std::vector<LandmarkId> names_;  // by observation
+  Scan named_;
+  std::vector<LandmarkId> at_hand_, asked_, wanted_;
+  std::vector<LandmarkGrid::Near> near_;
+  struct Pair {
+    int observation;
+    int landmark;  // its number among asked_
+  };
+  std::vector<Pair> pairs_;  // of observations and landmarks near them
+  std::vector<Seen> seen_;   // by observation
+  std::int64_t blocks_touched_ = 0;
+  Eigen::MatrixXd Sigma_;  // of [pose | asked_], with room to grow
+  mutable std::vector<LandmarkId> looked_up_;
+};
+
+}  // namespace seif

@@ -1,0 +1,100 @@
+// What the condensation tree keeps of each landmark and of each node.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "seif/tree/front.hpp"
+#include "seif/tree/leaf_tree.hpp"
+
+namespace seif {
+
+/// A landmark in the tree.
+struct CondensedLandmark {
+  using Point = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+  static constexpr int none = -1;
+
+  int leaf = none;
+  int next = none;        // slot of the next landmark of the leaf
+  int leaves = 0;         // [-] that mention it, if it is cold
+  int hot = none;         // its place in the zone
+  int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
+  int visit = 0;
+  int row = 0;                         // in the part that is being looked at
+  Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
+  mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
+  Point loose = Point::Zero();         // what no message holds of its residual
+};
+
+/// All landmarks below a node, where they move as one rigid body.
+struct LandmarkGroup {
+  using Motion = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
+  static constexpr int none = -1;
+
+  CondensedLandmark::Point centre = CondensedLandmark::Point::Zero();  // p_world [m]
+  int settled_at = none;
+  Motion mean = Motion::Zero();          // all its motion so far [m, m, rad], as above
+  mutable Motion read = Motion::Zero();  // as above
+  int fronts = 0;                        // [-] that it is in
+  int known_in = 0;                      // number of the plan in which `read` is known, or begun
+  int present_in = 0;                    // number of the front that it was last found in
+  int wanted_by = 0;                     // number of the count of variables that would be tied to it
+  int members = 0;                       // [-] these
+};
+
+/// What a node sends towards the hub; the hub's goes to the zone. A bare node lets through what comes to it;
+/// a bare leaf that is cold sends its blocks of Omega as they are.
+struct SentMessage {
+  Condensed message;
+  bool is_bare = true;
+  std::vector<int> groups;  // nodes whose groups are in its front
+  LeafTree::Box reach;  // a hot leaf may not come in here without a look at these groups, and those behind
+
+  void take(SentMessage& other) {
+    message.take(other.message);
+    is_bare = other.is_bare;
+    groups = other.groups;
+    reach = other.reach;
+  }
+};
+
+/// A node of the tree; an epoch ends with whatever changes a mean, or how it is held.
+struct CondensationNode {
+  static constexpr int none = -1;
+
+  SentMessage sent;                  // nothing while it is the hub: see CondensationTree::sent()
+  int stale_in = 0;                  // number of the plan that has it send anew
+  int planned = none;                // place among the messages of that plan
+  mutable std::int64_t read_at = 0;  // epoch
+  LandmarkGroup group;
+  double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size
+  int distance_known_in = 0;    // number of the plan that knows it
+
+  // Of leaves.
+  int first_landmark = none;  // slot
+  int landmarks = 0;          // [-]
+  bool hot = false;
+  bool next_hot = false;  // in the next zone, if one is planned; otherwise as `hot`
+  bool wanted = false;
+  int used = 0;  // scan that last had a landmark of it in the window
+};
+
+/// The next zone, and the messages that it needs, while these are made ready.
+struct CondensationPlan {
+  bool is_running = false;
+  int number = 0;                    // of all plans so far
+  std::vector<int> hot_leaves;       // of the next zone
+  std::vector<int> stale;            // nodes that send anew
+  std::vector<int> order;            // the same, each after those that it depends on
+  std::int64_t most_blocks = 0;      // [-] that one update makes ready; 0: all
+  std::size_t ready = 0;             // [-] of these
+  std::int64_t worked = 0;           // [-] blocks, in this update
+  bool has_told = false;             // whether its messages hold the residuals from where the means are
+  std::vector<int> begun;            // nodes whose groups are
+  std::deque<SentMessage> messages;  // by that order, as far as ready
+  std::vector<int> new_leaves;       // that have come since, and stand beside the tree
+};
+
+}  // namespace seif

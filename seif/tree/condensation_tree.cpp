@@ -1,0 +1,317 @@
+// The live path: joining, activation, the solution, and reading. How the zone moves is planned in
+// condensation_planning.cpp, made ready in condensation_sending.cpp, done in condensation_switching.cpp.
+#include "seif/tree/condensation_tree.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+
+namespace seif {
+
+// Leaves.
+
+/// While a plan runs, a new leaf stands beside the tree.
+int CondensationTree::add_leaf(const Eigen::Vector2d& place) {
+  const int leaf = tree_.new_leaf();
+  tree_.widen(leaf, place);
+  if (plan_.is_running) {
+    plan_.new_leaves.push_back(leaf);
+  } else {
+    attach(leaf);
+  }
+  while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
+  node(leaf).hot = node(leaf).next_hot = true;
+  node(leaf).used = scan_;
+  hot_leaves_.push_back(leaf);
+  return leaf;
+}
+
+/// By the middle of its box.
+void CondensationTree::attach(int leaf) {
+  tree_.attach(leaf);
+  while (static_cast<int>(nodes_.size()) < tree_.size()) nodes_.push_back({});
+  changed_.push_back(leaf);
+}
+
+/// The nearest hot leaf that has room, or a new one.
+int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
+  int nearest = none;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const int leaf : hot_leaves_) {
+    if (node(leaf).landmarks >= options_.most_in_leaf || !node(leaf).next_hot) continue;
+    const double distance = (zone_.mean(place(node(leaf).first_landmark).hot) - p).squaredNorm();
+    if (distance >= shortest) continue;
+    shortest = distance;
+    nearest = leaf;
+  }
+  return nearest != none ? nearest : add_leaf(p);
+}
+
+void CondensationTree::join(const InformationState& state, int slot) {
+  const int leaf = leaf_for(state.mean(slot));
+  places_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
+  place(slot).hot = zone_.add(slot, state.mean(slot));
+  node(leaf).first_landmark = slot;
+  tree_.widen(leaf, state.mean(slot));
+  ++node(leaf).landmarks;
+  ++epoch_;
+}
+
+// The window.
+
+bool CondensationTree::activate(InformationState& state, std::vector<int>& slots, double range) {
+  ++scan_;
+  constexpr double kept = 0.99;  // of it, at a scan that sees less far
+  view_ = std::max(range, kept * view_);
+  note_travel(state);
+  for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
+  for (const int slot : slots) node(place(slot).leaf).used = scan_;
+  for (const int slot : wanted_) node(place(slot).leaf).used = scan_;
+  if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
+  wanted_.clear();
+  if (plan_.is_running && !work_on_plan(state)) return false;
+  waited_ += static_cast<std::int64_t>(std::erase_if(slots, [&](int slot) { return !is_ready(slot); }));
+  zone_places_.clear();
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    if (state.position(slot) < 0 && std::ranges::find(zone_places_, h) == zone_places_.end()) {
+      zone_places_.push_back(h);
+    }
+  }
+  if (zone_places_.empty()) return true;
+  follow_in_zone(state);
+  ++epoch_;
+  if (!zone_.restore(zone_places_)) return false;
+  for (const int h : zone_places_) {  // its links to active landmarks are the window's from now on
+    const int slot = zone_.slot(h);
+    zone_.add_information(h, h, -state.information(slot));
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      if (state.position(other) >= 0) zone_.add_information(h, place(other).hot, -Omega_so);
+    });
+    state.set_mean(slot, zone_.mean(h));
+    state.activate(slot);
+  }
+  return true;
+}
+
+/// Whether a landmark may be active: in this zone and, if one is planned, in the next.
+bool CondensationTree::is_ready(int slot) const {
+  return place(slot).hot != none && node(place(slot).leaf).next_hot;
+}
+
+/// The zone moves once the messages are ready and have told their residuals.
+bool CondensationTree::work_on_plan(InformationState& state) {
+  if (plan_.has_told) return move_zone(state);
+  const std::int64_t before = blocks_touched_;
+  if (!make_ready(state, plan_.most_blocks)) return false;
+  plan_.worked = blocks_touched_ - before;
+  const bool is_all_at_once = options_.most_blocks == 0;
+  return !is_all_at_once || move_zone(state);
+}
+
+bool CondensationTree::solve_all(InformationState& state) {
+  if (plan_.is_running && !(make_ready(state, 0) && move_zone(state))) return false;
+  groups_allowed_ = false;
+  begin_plan_of_all(state);
+  const bool done = make_ready(state, 0) && move_zone(state) && solve_window(state);
+  groups_allowed_ = true;
+  return done;
+}
+
+bool CondensationTree::deactivate(const InformationState& state, std::span<const int> slots) {
+  follow_in_zone(state);
+  ++epoch_;
+  zone_places_.clear();
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    zone_places_.push_back(h);
+    zone_.add_information(h, h, state.information(slot));
+    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+      const int h_other = place(other).hot;
+      if (h_other == none || !zone_.is_active(h_other)) return;  // stands in F already
+      if (state.position(other) < 0 && other < slot) return;     // dropped too, and comes by itself
+      zone_.add_information(h, h_other, Omega_so);
+    });
+  }
+  return zone_.eliminate(zone_places_);
+}
+
+/// The information on the active landmarks of all that is not in the window (w x w).
+void CondensationTree::add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const {
+  for (int p = 0; p < state.active_count(); ++p) {
+    const int h = place(state.active(p)).hot;
+    for (int q = 0; q < state.active_count(); ++q) {
+      Omega.block<2, 2>(InformationState::row_of(p), InformationState::row_of(q)) +=
+          zone_.block(h, place(state.active(q)).hot);
+    }
+  }
+}
+
+bool CondensationTree::solve_window(InformationState& state) {
+  const int w = state.window_size();
+  if (M_.rows() < w) {
+    M_.resize(2 * w, 2 * w);
+    step_.resize(2 * w);
+    change_.resize(2 * w);
+  }
+  auto M = M_.topLeftCorner(w, w);
+  M = state.Omega();
+  add_condensed(state, M);
+  auto L = state.work();
+  L = M;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(L);
+  if (llt.info() != Eigen::Success) return false;
+  auto d = step_.head(w);
+  d = state.r();
+  llt.solveInPlace(d);
+  lowered_ = state.r().dot(d);
+  auto dr = change_.head(w);
+  dr.noalias() = M * d;
+  state.move_window(d, dr);
+  state.touch(2 * state.window_blocks());
+  ++epoch_;
+  return true;
+}
+
+/// With L of Omega + S = L L' and columns Y that take a step of the window to one of pose or landmark, of
+/// those that are not active by -W': the covariance is (L^-1 Y)' (L^-1 Y), and F_PP^-1 beside it.
+void CondensationTree::covariance(const InformationState& state, std::span<const int> slots,
+                                  Eigen::Ref<Eigen::MatrixXd> out) const {
+  const int w = state.window_size();
+  const auto n = static_cast<Eigen::Index>(3 + 2 * slots.size());
+  if (by_factor_.rows() < w || by_factor_.cols() < n) {
+    // Mostly enough, so that it does not come to grow when the map is long known.
+    constexpr Eigen::Index room = 128;
+    by_factor_.resize(std::max({room, Eigen::Index{2} * w, by_factor_.rows()}),
+                      std::max({room, 2 * n, by_factor_.cols()}));
+  }
+  auto Y = by_factor_.topLeftCorner(w, n);
+  Y.setZero();
+  Y.topLeftCorner<3, 3>().setIdentity();
+  Eigen::Index col = 3;
+  for (const int slot : slots) {
+    const int h = place(slot).hot;
+    if (const int p = state.position(slot); p >= 0) {
+      Y.block<2, 2>(InformationState::row_of(p), col).setIdentity();
+    } else {
+      for (int p_active = 0; p_active < state.active_count(); ++p_active)
+        Y.block<2, 2>(InformationState::row_of(p_active), col) =
+            -zone_.block(place(state.active(p_active)).hot, h);
+    }
+    col += 2;
+  }
+  state.work().triangularView<Eigen::Lower>().solveInPlace(Y);
+  out.noalias() = Y.transpose() * Y;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      if (state.position(slots[i]) >= 0 || state.position(slots[j]) >= 0) continue;
+      out.block<2, 2>(static_cast<Eigen::Index>(3 + 2 * i), static_cast<Eigen::Index>(3 + 2 * j)) -=
+          zone_.block(place(slots[i]).hot, place(slots[j]).hot);
+    }
+  }
+}
+
+// Means. Reading leaves no trace: what it finds goes to read_, and holds until epoch_ counts on. Following
+// writes it down where the next step starts from.
+
+const Eigen::VectorXd& CondensationTree::read_zone(const InformationState& state) const {
+  if (zone_read_at_ != epoch_) zone_.follow([&](int slot) { return state.mean(slot); }, zone_read_);
+  zone_read_at_ = epoch_;
+  return zone_read_;
+}
+
+void CondensationTree::as_read(FrontVariable v, double* mean) const {
+  if (is_group(v)) {
+    Eigen::Map<Eigen::Vector3d>(mean, 3) = node(~v).group.read;
+  } else if (const int h = place(v).hot; h != none) {
+    Eigen::Map<Eigen::Vector2d>(mean, 2) = zone_read_.segment<2>(2 * h);
+  } else {
+    Eigen::Map<Eigen::Vector2d>(mean, 2) = place(v).read;
+  }
+}
+
+/// What was settled at this node, and at all from there to the hub, follows its boundary.
+void CondensationTree::read(const InformationState& state, int at) const {
+  const Node& n = node(at);
+  if (n.read_at == epoch_) return;
+  n.read_at = epoch_;
+  if (const int next = tree_.towards(at); next != none) {
+    read(state, next);
+  } else {
+    read_zone(state);
+  }
+  const Condensed& message = sent(at).message;
+  if (message.e == 0 && message.tied.empty()) return;
+  find_step(message);
+  Eigen::Index row = 0;
+  for (const FrontVariable v : message.eliminated) {
+    if (is_group(v)) {
+      const LandmarkGroup& group = node(~v).group;
+      group.read = group.mean + read_step_.segment<3>(row);
+    } else {
+      place(v).read = place(v).mean + read_step_.segment<2>(row);
+    }
+    row += freedom(v);
+  }
+  for (const Condensed::Tie& tie : message.tied) {
+    const Eigen::Vector3d d = read_step_.segment<3>(tie.row);
+    const Eigen::Vector2d t = d.head<2>() + d(2) * Eigen::Vector2d(-tie.lever.y(), tie.lever.x());
+    if (is_group(tie.variable)) {
+      node(~tie.variable).group.read = tie.reference + Eigen::Vector3d(t.x(), t.y(), d(2));
+    } else {
+      place(tie.variable).read = tie.reference.head<2>() + t;
+    }
+  }
+}
+
+/// The steps of E and B since the message was sent, in read_step_: d_E = L^-T (y - G d_B).
+void CondensationTree::find_step(const Condensed& message) const {
+  const Eigen::Index e = message.e;
+  const Eigen::Index b = message.b;
+  if (read_step_.size() < e + b) read_step_.resize(2 * (e + b));
+  auto d_E = read_step_.head(e);
+  auto d_B = read_step_.segment(e, b);
+  step_of(message, d_B);
+  const auto columns = message.L_and_G();
+  d_E = Eigen::Map<const Eigen::VectorXd>(message.y.data(), e);
+  d_E.noalias() -= columns.bottomRows(b).transpose() * d_B;
+  columns.topRows(e).triangularView<Eigen::Lower>().transpose().solveInPlace(d_E);
+}
+
+/// How far the boundary of a message has gone on since it was sent.
+void CondensationTree::step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const {
+  Eigen::Index row = 0;
+  for (const Condensed::Member& m : message.boundary) {
+    as_read(m.variable, &d(row));
+    row += freedom(m.variable);
+  }
+  d -= Eigen::Map<const Eigen::VectorXd>(message.reference.data(), message.b);
+}
+
+Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) const {
+  if (state.position(slot) >= 0) return state.mean(slot);
+  if (const int h = place(slot).hot; h != none) return read_zone(state).segment<2>(2 * h);
+  read(state, place(slot).settled_at);
+  return place(slot).read;
+}
+
+void CondensationTree::follow_in_zone(const InformationState& state) {
+  if (zone_followed_at_ == epoch_) return;
+  zone_followed_at_ = epoch_;
+  zone_.set_means(read_zone(state));
+  blocks_touched_ += std::int64_t{state.active_count()} * zone_.size();
+}
+
+int CondensationTree::settled_at(FrontVariable v) const {
+  return is_group(v) ? node(~v).group.settled_at : place(v).settled_at;
+}
+
+std::size_t CondensationTree::memory_bytes() const {
+  std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + places_.memory_bytes() +
+                      front_.memory_bytes() + zone_.memory_bytes() + to_zone_.message.memory_bytes();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].sent.message.memory_bytes();
+  for (const SentMessage& planned : plan_.messages) bytes += sizeof(planned) + planned.message.memory_bytes();
+  return bytes;
+}
+
+}  // namespace seif

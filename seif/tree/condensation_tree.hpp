@@ -1,0 +1,251 @@
+// Recovers the mean exactly: what lies far from the robot is condensed along a tree, once, and follows when
+// somebody looks.
+//
+//           o            Landmarks live in leaves of eight or so. Those about the robot are hot (*): their
+//        /     \         landmarks stand in the hub (HotZone). Every other node sends one message towards
+//      hub      o        the hub: the information of what lies behind it, after elimination of all that
+//     /   \    / \       nothing before it has a block with (Front). So a message changes only if a leaf
+//    0*   1*  2   3      behind it becomes hot or cold, or if the hub passes by.
+//
+// Omega changes in the window alone, and the window is hot. So an update solves for robot and active
+// landmarks with Omega + S, S what hub and messages know of them: the exact mean of all Omega. The others
+// follow by what their elimination has left. Where a front would grow too large, landmarks far from the robot
+// are tied to groups that move as one; what pulls at them is kept, and taken in once they are untied.
+// seif/README.md has more of it.
+//
+// Glossary: a leaf owns a block Omega_ij if it is the older of the leaves of i and j; it mentions the
+//           landmarks of its blocks. A landmark is complete where all leaves that mention it have met.
+//           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "seif/information_state.hpp"
+#include "seif/tree/condensation_nodes.hpp"
+#include "seif/tree/hot_zone.hpp"
+#include "seif/tree/leaf_tree.hpp"
+
+namespace seif {
+
+struct CondensationOptions {
+  int most_in_leaf = 8;  // [-] landmarks of a leaf as it grows
+  int most_hot = 24;     // [-] landmarks beyond which leaves without an active one do not stay hot
+  /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
+  int most_unknowns = 200;
+  double grain = 0.25;  // [-] distance over size of the coarsest groups
+  /// [-] Blocks of messages that one update makes ready for the next zone, or more where the robot would be
+  /// there before it is ready, but at least one message. 0: all at once, as soon as a landmark is seen
+  /// outside of the zone.
+  int most_blocks = 5'000;
+  // In multiples of how far the robot sees:
+  double zone_before = 0.75;  // how far before the robot the zone has its middle
+  double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
+  double zone_ahead = 1.35;   // and those so near are taken into the next one
+};
+
+/// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
+/// holds stale ones.
+class CondensationTree {
+ public:
+  CondensationTree(const CondensationOptions& options, const Pose2& start)
+      : options_(options), tree_(start) {}
+
+  /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
+  /// are now. `slots` loses those that have to wait, since the zone is on its way to them, or away from them.
+  /// `range` is that of the farthest observation [m]. False if a matrix is not positive definite, as below.
+  [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots, double range);
+
+  /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
+  [[nodiscard]] bool solve_all(InformationState& state);
+
+  /// A landmark that has just joined the map, before it becomes active.
+  void join(const InformationState& state, int slot);
+
+  /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
+  [[nodiscard]] bool solve_window(InformationState& state);
+
+  /// [-] r' Omega^-1 r of the last solve_window(): by how much its step has lowered the squared error.
+  double lowered() const { return lowered_; }
+
+  /// After these have been dropped from the window.
+  [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
+
+  /// After the last solve_window() of an update; without it the zone never moves, unless most_blocks is 0.
+  /// Until the next activate() no mean of a landmark may change, but by rounding.
+  void end_update(const InformationState& state);
+
+  /// p_world_landmark, in O(log N). [m]
+  Eigen::Vector2d mean(const InformationState& state, int slot) const;
+
+  // Of landmarks in the zone, straight after solve_window():
+
+  bool is_in_zone(int slot) const { return place(slot).hot != none; }
+  template <class Visit>
+  void for_each_in_zone(Visit&& visit) const {
+    for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
+  }
+  /// Of [pose | landmarks] by all that is known, (Omega + S)^-1 and how those that are not active follow, to
+  /// `out` (3+2m x 3+2m). Takes the factor that solve_window() leaves in the state's work().
+  void covariance(const InformationState& state, std::span<const int> slots,
+                  Eigen::Ref<Eigen::MatrixXd> out) const;
+
+  /// The next zone is to hold this landmark.
+  void want(int slot) { wanted_.push_back(slot); }
+
+  std::int64_t blocks_touched() const { return blocks_touched_ + zone_.blocks_touched(); }
+  /// Observations of known landmarks that have been left out since these had to wait. [-]
+  std::int64_t waited() const { return waited_; }
+  std::size_t memory_bytes() const;
+
+  /// At the cost of a pass over the map: what is wrong with the tree, if anything is.
+  std::optional<std::string> broken_invariant(const InformationState& state) const;
+
+ private:
+  static constexpr int none = -1;
+  static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
+  using Place = CondensedLandmark;
+  using Node = CondensationNode;
+  Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
+  const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
+  Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
+  template <class Visit>
+  void for_each_landmark(int leaf, Visit&& visit) const {
+    for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
+  }
+
+  /// visit(slot, other, Omega) for each block that a leaf owns; those of two leaves are the older one's.
+  template <class Visit>
+  void for_each_owned_block(const InformationState& state, int leaf, Visit&& visit) const {
+    for_each_landmark(leaf, [&](int slot) {
+      visit(slot, slot, state.information(slot));
+      state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
+        const int leaf_of_other = place(other).leaf;
+        if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
+        visit(slot, other, Omega_so);
+      });
+    });
+  }
+  /// Visits the nodes whose messages come to a node, through bare ones or not.
+  template <class Visit>
+  void for_each_part(int at, Visit&& visit) const {
+    tree_.for_each_source(at, [&](int source) {
+      if (sent(source).is_bare && !tree_.is_leaf(source)) {
+        for_each_part(source, visit);
+      } else {
+        visit(source);
+      }
+    });
+  }
+
+  // Planning.
+  Eigen::Vector2d zone_middle(const Pose2& pose) const;
+  void note_travel(const InformationState& state);
+  int slices() const;
+  bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
+  void add_last_used(int landmarks);
+  void begin_plan(const InformationState& state);
+  int mark_plan();
+  void begin_plan_of_all(const InformationState& state);
+  void prepare_plan(const InformationState& state, int hub);
+  void put_in_order(int at);
+  bool is_stale(int at) const { return node(at).stale_in == plan_.number; }
+  const SentMessage& next_of(int at) const;
+  void mark_changed_leaves();
+  void mark_stale(int at);
+  void mark_expired(int at);
+  void note_groups(int at);
+  int count_leaves(const InformationState& state, int slot) const;
+
+  // Sending.
+  bool work_on_plan(InformationState& state);
+  bool make_ready(const InformationState& state, std::int64_t most_blocks);
+  bool send(const InformationState& state, int from);
+  void gather(int at);
+  int listed(Condensed& part, int slot, int balance);
+  void list_leaf(const InformationState& state, int leaf, Condensed& part);
+  void list_links(const InformationState& state);
+  bool is_complete(int at, FrontVariable v, int balance) const;
+  bool condense(const InformationState& state, int at, SentMessage& next);
+
+  // Grouping.
+  double distance_ratio(int group);
+  void tie_front(const InformationState& state, int at, SentMessage& next);
+  void tie(const InformationState& state, std::size_t index, int target, std::vector<int>& groups);
+  void note_reach(int at, SentMessage& next);
+  int count_unknowns(double ratio);
+  int group_for(FrontVariable v, double ratio);
+  int node_of(FrontVariable v) const;
+
+  // Switching.
+  void tell_residuals(const InformationState& state);
+  bool move_zone(InformationState& state);
+  void note_zone_residual(const InformationState& state);
+  void take_from_loose();
+  void loosen(int leaf);
+  void switch_leaves();
+  void tell_residual(int at);
+  void replace(int at);
+  void settle(FrontVariable v, int at);
+  void condense_residual(int at, Condensed& message);
+  void add_part_residuals(int at);
+  void forget(SentMessage& sent);
+  bool fill_zone(InformationState& state);
+  void take_into_zone(int slot, int h);
+  void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone);
+  void reserve_boundary(Eigen::Index rows);
+  Eigen::VectorXd::SegmentReturnType residual_of(int at);
+
+  // The live path.
+  int leaf_for(const Eigen::Vector2d& p);
+  int add_leaf(const Eigen::Vector2d& place);
+  void attach(int leaf);
+  bool is_ready(int slot) const;
+  void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
+  void follow_in_zone(const InformationState& state);
+  int settled_at(FrontVariable v) const;
+  const Eigen::VectorXd& read_zone(const InformationState& state) const;
+  void read(const InformationState& state, int at) const;
+  void as_read(FrontVariable v, double* mean) const;
+  void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
+  void find_step(const Condensed& message) const;
+
+  CondensationOptions options_;
+  LeafTree tree_;
+  Front front_;  // before what holds its arrays
+  ChunkedArray<Node> nodes_;
+  ChunkedArray<Place> places_;  // by slot
+  HotZone zone_;
+  SentMessage to_zone_;  // by the hub
+  Condensed links_;      // of the hub that is being made ready
+  CondensationPlan plan_;
+  std::vector<int> hot_leaves_;
+  std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
+  std::vector<int> zone_places_;
+  std::vector<int> wanted_;            // slots
+  mutable Eigen::MatrixXd by_factor_;  // scratch (w x 3+2m), with room to grow
+  double view_ = 0.0;                  // how far the robot sees [m]
+  double travel_ = 0.0;                // how far the middle of the zone goes in an update [m]
+  Eigen::Vector2d last_middle_ = Eigen::Vector2d::Zero();
+  mutable std::vector<int> owners_;
+  std::int64_t epoch_ = 1;
+  std::int64_t zone_followed_at_ = 0;  // epoch, as below
+  mutable std::int64_t zone_read_at_ = 0;
+  mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
+  int scan_ = 0, visit_ = 0;
+  bool groups_allowed_ = true;   // to be begun
+  int fronts_ = 0, counts_ = 0;  // [-] so far: marks of groups
+  bool any_present_ = false;     // groups in the front, by what others have sent
+  std::vector<int> targets_;     // by variable of the front: the node whose group it is tied to, or none
+  Eigen::MatrixXd M_;            // (w x w), with room to grow
+  Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
+  Eigen::VectorXd step_, change_;              // (w), with room to grow
+  double lowered_ = 0.0;                       // [-]
+  std::int64_t blocks_touched_ = 0, waited_ = 0;
+};
+
+}  // namespace seif

@@ -1,0 +1,174 @@
+// Elimination of landmarks from a part of the information matrix: what nodes of the condensation tree do.
+//
+//   a part of Omega       eliminated E   boundary B
+//   (a front)         E [ M_EE                      ]       M_EE = L L',  G = L^-1 M_EB,  y = L^-1 r_E
+//                     B [ M_BE           M_BB       ]       condensed: S = M_BB - G' G,  s = r_B - G' y
+//
+// E must have all its blocks in this front. Where the mean of B goes by d_B, that of E goes by
+// L^-T (y - G d_B).
+//
+// The variables of a front are landmarks, and groups of landmarks that move as one rigid body. What is tied
+// to a group has no rows of its own; it moves by t + phi J lever where the group moves by (t, phi).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "seif/chunked_array.hpp"
+#include "seif/tree/array_pool.hpp"
+
+namespace seif {
+
+/// A landmark goes by its slot, a group by the complement of a number of its own.
+using FrontVariable = int;
+constexpr FrontVariable group_variable(int group) { return ~group; }
+constexpr bool is_group(FrontVariable v) { return v < 0; }
+constexpr int freedom(FrontVariable v) { return is_group(v) ? 3 : 2; }  // (x, y), or (x, y, phi)
+
+/// What a front leaves behind.
+struct Condensed {
+  struct Member {
+    FrontVariable variable;
+    /// [-] leaves behind that hold blocks of it; once its own is among them, less all that there are.
+    int balance;
+  };
+  /// Of the matrix of B, by places in the boundary; for i == j the lower triangle counts.
+  struct Block {
+    int i, j;
+    Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
+  };
+  struct Tie {
+    FrontVariable variable;
+    int row;  // of its group, in E and B
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+    Eigen::Matrix<double, 3, 1, Eigen::DontAlign> reference;  // its mean (2, or 3 of a group) at that of B
+  };
+  std::vector<FrontVariable> eliminated;
+  std::vector<Member> boundary;
+  std::vector<Tie> tied;
+  std::vector<Block> S_blocks;    // S, where nothing has been eliminated, of landmarks alone
+  int e = 0, b = 0;               // [-] rows of E, of B
+  ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
+  ArrayPool::Array S;             // (b x b) lower triangle, by column
+  std::vector<double> y;          // (e)
+  std::vector<double> s;          // (b) the residual where B is at its reference
+  std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
+
+  auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
+  /// The distinct blocks of it.
+  std::int64_t blocks() const;
+  /// s - S d: the residual of B where its mean has gone by d (b) since its reference.
+  void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
+  void clear();
+  /// Becomes the other, whose arrays it takes away; lists are copied, so that each keeps its own room.
+  void take(Condensed& other);
+  /// Without its arrays: those are the front's.
+  std::size_t memory_bytes() const;
+};
+
+/// Must live longer than what it leaves behind, whose arrays are of its pool.
+class Front {
+ public:
+  struct Variable {
+    FrontVariable variable;
+    int balance;
+    FrontVariable group;  // that it is tied to, or itself
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+  };
+
+  Front() = default;
+  Front(Front&&) = default;
+  Front& operator=(Front&&) = delete;  // arrays of the pool that goes may be in use
+  ~Front() = default;
+
+  void begin();
+  /// The front takes in what another has left, or a part of Omega.
+  void add(const Condensed& part);
+  /// All that is in it so far, in the order in which it came.
+  const std::vector<Variable>& variables() const { return variables_; }
+  /// From now on a variable moves with a group, which becomes one of the front if it is not.
+  void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
+
+  /// Eliminates all variables of which is_complete(variable, balance) holds. False if their block is not
+  /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
+  template <class IsComplete>
+  [[nodiscard]] bool condense(IsComplete&& is_complete, Condensed& out) {
+    out.clear();
+    for (const Variable& v : variables_) {
+      if (v.group != v.variable) continue;
+      if (is_complete(v.variable, v.balance)) {
+        out.eliminated.push_back(v.variable);
+        out.e += freedom(v.variable);
+      } else {
+        out.boundary.push_back({v.variable, v.balance});
+        out.b += freedom(v.variable);
+      }
+    }
+    return factorise(out);
+  }
+
+  // The residual of a front that has been condensed.
+  void begin_residual(const Condensed& front);
+  /// What a part holds of the residual of its boundary (b).
+  void add_residual(const Condensed& part, const Eigen::Ref<const Eigen::VectorXd>& r);
+  void add_residual(int slot, const Eigen::Vector2d& r);
+  /// Sets y and s.
+  void condense_residual(Condensed& front);
+
+  /// Unknowns of it. [-]
+  int size() const { return size_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Place {
+    int front = 0;  // number of the front in which it was last
+    int index = 0;  // among variables_, until it has a row
+    int row = 0;
+    bool tied = false;
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+  };
+  /// Where a row of a part goes: to one row of the front, or, tied, to a second one with this weight.
+  struct Target {
+    int row;
+    int second;
+    double weight;
+  };
+
+  Place& place(FrontVariable v);
+  std::size_t index_of(FrontVariable v);
+  void give_rows(const Condensed& front);
+  void add_targets(FrontVariable v);
+  void find_targets(const Condensed& part);
+  void clear_matrix(Condensed& out);
+  std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
+  double& entry(int i, int j);
+  void add_product(const Target& i, const Target& j, double value, bool diagonal);
+  void add_blocks(const Condensed& part);
+  void add_untied(const Condensed& part);
+  void add_tied(const Condensed& part);
+  void list_moved_rows();
+  void add_to_rows(const Target& target, double value);
+  void assemble(Condensed& out);
+  static void fold(double* square, Eigen::Index stride, Eigen::Index n);
+  bool eliminate(Eigen::Index b);
+  bool factorise(Condensed& out);
+
+  std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
+  int front_ = 0;
+  int size_ = 0;
+  ChunkedArray<Place> landmarks_, groups_;
+  std::vector<Variable> variables_;
+  std::vector<const Condensed*> parts_;
+  std::vector<Target> targets_;  // of the rows of one part
+  bool any_tied_ = false;        // among them
+  std::vector<int> moved_rows_, column_of_row_;
+  int e_ = 0;               // rows of E
+  double* of_E_ = nullptr;  // (n x e) columns of the matrix: in the message that is being made
+  Eigen::VectorXd of_B_;    // (b x b), with room to grow, as all below
+  Eigen::VectorXd half_, transposed_;
+  Eigen::VectorXd r_;
+};
+
+}  // namespace seif

@@ -1,0 +1,130 @@
+#include "seif/tree/hot_zone.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace seif {
+
+void HotZone::reserve(int landmarks) {
+  const Eigen::Index rows = 2 * landmarks;
+  if (rows <= F_.rows()) return;
+  const Eigen::Index room = std::max<Eigen::Index>(rows, 2 * F_.rows());
+  F_.conservativeResizeLike(Eigen::MatrixXd::Zero(room, room));
+  mean_.conservativeResize(room);
+  columns_.resize(room, room);
+  swept_.resize(room, room);
+  pivot_.resize(room, room);
+  change_.resize(room, room);
+  members_.reserve(static_cast<std::size_t>(room / 2));
+  rest_.reserve(static_cast<std::size_t>(room / 2));
+}
+
+void HotZone::load(const Condensed& without) {
+  members_.clear();
+  reserve(static_cast<int>(without.boundary.size()));
+  for (const Condensed::Member& m : without.boundary)
+    members_.push_back({.slot = m.variable, .active = true});
+  const auto n = 2 * static_cast<Eigen::Index>(size());
+  const double* S = without.S.data();
+  for (Eigen::Index col = 0; col < n; ++col) {
+    F_.col(col).segment(col, n - col) = Eigen::Map<const Eigen::VectorXd>(S, n - col);
+    F_.row(col).segment(col, n - col) = F_.col(col).segment(col, n - col);
+    S += n - col;
+  }
+  mean_.head(n).setZero();
+  blocks_touched_ += without.blocks();
+}
+
+int HotZone::add(int slot, const Eigen::Vector2d& mean) {
+  const int place = size();
+  reserve(place + 1);
+  members_.push_back({.slot = slot, .active = true});
+  F_.middleCols<2>(2 * place).topRows(2 * place + 2).setZero();
+  F_.middleRows<2>(2 * place).leftCols(2 * place + 2).setZero();
+  set_mean(place, mean);
+  return place;
+}
+
+void HotZone::add_information(int a, int b, const Eigen::Matrix2d& Omega_ab) {
+  block(a, b) += Omega_ab;
+  if (a != b) block(b, a) += Omega_ab.transpose();
+  ++blocks_touched_;
+}
+
+void HotZone::list_rest(std::span<const int> places) {
+  rest_.clear();
+  for (int place = 0; place < size(); ++place) {
+    if (std::ranges::find(places, place) == places.end()) rest_.push_back(place);
+  }
+}
+
+/// F_RR -= sign change, of which the lower triangle is known.
+void HotZone::spread_change(double sign) {
+  const auto block_of = [](Eigen::MatrixXd& M, std::size_t i, std::size_t j) {
+    return M.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j));
+  };
+  for (std::size_t j = 0; j < rest_.size(); ++j) {
+    change_(static_cast<Eigen::Index>(2 * j), static_cast<Eigen::Index>(2 * j + 1)) =
+        change_(static_cast<Eigen::Index>(2 * j + 1), static_cast<Eigen::Index>(2 * j));
+    for (std::size_t i = j; i < rest_.size(); ++i) {
+      const Eigen::Matrix2d step = sign * block_of(change_, i, j);
+      block(rest_[i], rest_[j]) -= step;
+      if (i != j) block(rest_[j], rest_[i]) -= step.transpose();
+    }
+  }
+}
+
+/// With T the places and R the rest, A = sign F_TT, U = F_RT and V = U A^-1:
+///   F_RR -= sign V U',   F_RT = V,   F_TT = -sign A^-1.
+bool HotZone::sweep(std::span<const int> places, double sign) {
+  list_rest(places);
+  const auto r = 2 * static_cast<Eigen::Index>(rest_.size());
+  const auto t = 2 * static_cast<Eigen::Index>(places.size());
+  auto U = columns_.topLeftCorner(r, t);
+  auto V = swept_.topLeftCorner(r, t);
+  auto A = pivot_.topLeftCorner(t, t);
+  const auto at = [](std::size_t i) { return 2 * static_cast<Eigen::Index>(i); };
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < rest_.size(); ++i) U.block<2, 2>(at(i), at(j)) = block(rest_[i], places[j]);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      A.block<2, 2>(at(i), at(j)) = sign * block(places[i], places[j]);
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A);
+  if (llt.info() != Eigen::Success) return false;
+  V = U;
+  llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(V);
+  llt.matrixL().solveInPlace<Eigen::OnTheRight>(V);
+  change_.topLeftCorner(r, r).triangularView<Eigen::Lower>() = V * U.transpose();
+  spread_change(sign);
+  auto inverse = columns_.topLeftCorner(t, t);  // U is done with
+  inverse.setIdentity();
+  llt.solveInPlace(inverse);
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    for (std::size_t i = 0; i < rest_.size(); ++i) {
+      block(rest_[i], places[j]) = V.block<2, 2>(at(i), at(j));
+      block(places[j], rest_[i]) = V.block<2, 2>(at(i), at(j)).transpose();
+    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+      block(places[i], places[j]) = -sign * inverse.block<2, 2>(at(i), at(j));
+    members_[static_cast<std::size_t>(places[j])].active = sign < 0.0;
+  }
+  blocks_touched_ += std::int64_t{size()} * (size() + 1) / 2;
+  return true;
+}
+
+/// -W' d_A of one place in P.
+Eigen::Vector2d HotZone::step_of(int place, const Eigen::VectorXd& d) const {
+  Eigen::Vector2d d_P = Eigen::Vector2d::Zero();
+  for (int a = 0; a < size(); ++a) {
+    if (is_active(a)) d_P -= block(place, a) * d.segment<2>(2 * a);
+  }
+  return d_P;
+}
+
+std::size_t HotZone::memory_bytes() const {
+  return sizeof(double) * static_cast<std::size_t>(F_.size() + mean_.size() + columns_.size() +
+                                                   swept_.size() + pivot_.size() + change_.size()) +
+         members_.capacity() * sizeof(Member);
+}
+
+}  // namespace seif

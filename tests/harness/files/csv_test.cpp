@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <system_error>
+
+#include "harness/files/bad_input.hpp"
+#include "harness/files/csv_reader.hpp"
+#include "harness/files/csv_writer.hpp"
+#include "harness/fixtures.hpp"
+
+namespace harness {
+namespace {
+
+using test::write_file;
+
+TEST(Csv, NumbersComeBackBitForBit) {
+  const TemporaryFolder folder;
+  std::vector<double> numbers = {0.0,
+                                 -0.0,
+                                 0.1,
+                                 1.0 / 3.0,
+                                 1e300,
+                                 -1e-300,
+                                 std::numeric_limits<double>::denorm_min(),
+                                 std::numeric_limits<double>::max(),
+                                 std::nextafter(1.0, 2.0)};
+  std::mt19937_64 random(1);
+  while (numbers.size() < 5000) {
+    const double number = std::bit_cast<double>(random());
+    if (std::isfinite(number)) numbers.push_back(number);
+  }
+  CsvWriter writer(folder / "a.csv", "number");
+  for (const double number : numbers) writer.value(number).end_row();
+  writer.close();
+  CsvReader reader(folder / "a.csv", {{"number"}, {}});
+  for (const double number : numbers) {
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(reader.number(0)), std::bit_cast<std::uint64_t>(number));
+  }
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(Csv, ReadsWindowsLineEndsAndALastLineWithoutEnd) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.csv", "a, b\r\n1, 2\r\n3,4");
+  CsvReader reader(folder / "a.csv", {{"a", "b"}, {}});
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.number(1), 2.0);
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(reader.number(1), 4.0);
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(Csv, ColumnsOfNewerVersionsMayBeMissing) {
+  const TemporaryFolder folder;
+  const Columns columns{{"t"}, {"gated"}, {"innovation", "degrees"}};
+  write_file(folder / "oldest.csv", "t\n1\n");
+  write_file(folder / "old.csv", "t,gated\n1,2\n");
+  write_file(folder / "new.csv", "t,gated,innovation,degrees\n1,2,3.5,4\n");
+  write_file(folder / "odd.csv", "t,innovation,degrees\n1,3.5,4\n");
+  EXPECT_FALSE(CsvReader(folder / "oldest.csv", columns).has_optional());
+  CsvReader old(folder / "old.csv", columns);
+  EXPECT_TRUE(old.has_optional());
+  EXPECT_FALSE(old.has_newer());
+  CsvReader newest(folder / "new.csv", columns);
+  EXPECT_TRUE(newest.has_optional());
+  EXPECT_TRUE(newest.has_newer());
+  ASSERT_TRUE(newest.next());
+  EXPECT_EQ(newest.number(2), 3.5);
+  EXPECT_EQ(newest.integer(3, 0, 9), 4);
+  EXPECT_THROW(CsvReader(folder / "odd.csv", columns), BadInput);
+}
+
+TEST(Csv, ALineWithoutEndUsesNoMemory) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.csv", "a\n" + std::string(1 << 20, '1'));
+  CsvReader reader(folder / "a.csv", {{"a"}, {}});
+  EXPECT_THROW(reader.next(), BadInput);
+}
+
+TEST(Csv, NeverWritesOverAFile) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.csv", "precious");
+  EXPECT_THROW(CsvWriter(folder / "a.csv", "a"), std::system_error);
+  EXPECT_EQ(test::read_file(folder / "a.csv"), "precious");
+}
+
+TEST(Csv, AFileThatWasDeletedMeanwhileIsAnError) {
+  const TemporaryFolder folder;
+  CsvWriter writer(folder / "a.csv", "a");
+  std::filesystem::remove(folder / "a.csv");
+  EXPECT_THROW(writer.close(), std::system_error);
+}
+
+}  // namespace
+}  // namespace harness

@@ -1,0 +1,124 @@
+// Runs whose observations name no landmark: recorded, replayed and scored.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/files/bad_input.hpp"
+#include "harness/fixtures.hpp"
+#include "harness/score/details.hpp"
+#include "harness/score/true_names.hpp"
+
+namespace harness {
+namespace {
+
+using test::choice;
+using test::read_file;
+using test::replay;
+using test::run_live;
+using test::small_world;
+using test::write_file;
+
+worlds::World nameless_world() {
+  worlds::World world = small_world();
+  world.duration = 60.0;  // a round and a half
+  world.landmark_sensor.ids = worlds::LandmarkIds::hidden;
+  world.landmark_sensor.false_detections = 0.2;
+  world.estimators = {choice("ekf"), choice("seif")};
+  for (worlds::EstimatorChoice& estimator : world.estimators)
+    estimator.options["association"] = std::string("joint");
+  return world;
+}
+
+TEST(TrueNames, GoWithTheMajority) {
+  TrueNames names;
+  names.add(std::vector<seif::LandmarkId>{0, 1, seif::no_landmark}, std::vector<seif::LandmarkId>{7, 8, 9});
+  names.add(0, 7);
+  names.add(0, 8);
+  names.add(1, seif::no_landmark);
+  names.add(1, seif::no_landmark);
+  EXPECT_EQ(names.of(0), 7);
+  EXPECT_EQ(names.right(0), 2);
+  EXPECT_EQ(names.of(1), seif::no_landmark) << "mostly false detections";
+  EXPECT_EQ(names.of(5), seif::no_landmark) << "never given";
+  EXPECT_EQ(names.right(), 2);
+}
+
+TEST(TrueNames, OfTwoThatAreOneThatWithMoreRightObservationsCounts) {
+  TrueNames names;
+  names.add(0, 7);
+  for (int i = 0; i < 3; ++i) names.add(1, 7);
+  names.add(2, 4);
+  names.add(3, seif::no_landmark);
+  const std::vector<MapRecord> map = {{0, {1, 0}, {}}, {1, {2, 0}, {}}, {2, {3, 0}, {}}, {3, {4, 0}, {}}};
+  const ScoredMap scored = score_names(map, names);
+  EXPECT_EQ(scored.duplicates, 1);
+  ASSERT_EQ(scored.landmarks.size(), 3U);
+  EXPECT_EQ(scored.landmarks[0].landmark, 7);
+  EXPECT_EQ(scored.landmarks[0].mean.x(), 2.0);
+  EXPECT_EQ(scored.landmarks[1].landmark, 4);
+  EXPECT_EQ(scored.landmarks[2].landmark, seif::no_landmark);
+}
+
+TEST(ReadAssociations, CountsRowByRow) {
+  const TemporaryFolder folder;
+  write_file(folder / "observations.csv",
+             "t,landmark,range,bearing\n1,,2,0\n1,,3,0\n2,,,\n3,,2,0\n3,,5,0\n4,,5,0\n");
+  write_file(folder / "observations_true_ids.csv", "t,true_landmark\n1,7\n1,8\n2,\n3,7\n3,\n4,1\n");
+  write_file(folder / "seif_associations.csv", "t,landmark\n1,0\n1,\n2,\n3,0\n3,0\n");
+  const Associations associations = read_associations(folder.path(), "seif").value();
+  EXPECT_EQ(associations.named, 3);
+  EXPECT_EQ(associations.left_out, 1) << "an empty scan leaves nothing out, and the filter failed before 4 s";
+  EXPECT_EQ(associations.names->right(), 2);
+  EXPECT_FALSE(read_associations(folder.path(), "ekf"));
+  write_file(folder / "seif_associations.csv", "t,landmark\n1,0\n1,\n2,\n3,0\n3,0\n4,0\n5,0\n");
+  EXPECT_THROW(read_associations(folder.path(), "seif"), BadInput);
+}
+
+TEST(NamelessRun, IsScoredByWhatTheLandmarksTrulyAre) {
+  const TemporaryFolder folder;
+  const RunResult run = run_live(nameless_world(), folder / "run");
+  ASSERT_EQ(exit_code(run), 0) << run.error;
+  const std::vector<std::string> names = {"ekf", "seif"};
+  const RunDetails details = score_details(folder / "run", names, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EstimatorScore& score = run.summary.score.estimators[i];
+    EXPECT_EQ(score.landmarks_mapped, 12) << score.name;
+    EXPECT_EQ(score.landmarks_spurious, 0) << score.name;
+    EXPECT_LT(*score.landmarks.rmse_aligned, 0.05) << score.name;
+    EXPECT_GT(*score.associations_right, 0.99) << score.name;
+    EXPECT_LT(*score.associations_left_out, 0.1) << score.name;
+    EXPECT_TRUE(score.nees_landmark_final) << "landmarks are found in the world";
+    EXPECT_EQ(details.estimators[i].map->missed, 0);
+    EXPECT_EQ(details.estimators[i].map->duplicate, 0);
+  }
+  const auto summary = nlohmann::json::parse(read_file(folder / "run" / "summary.json"));
+  EXPECT_GT(summary["estimators"]["seif"]["associations_right"], 0.99);
+}
+
+TEST(NamelessRun, IsReplayedToTheSameBytes) {
+  const TemporaryFolder folder;
+  const worlds::World world = nameless_world();
+  const RunResult live = run_live(world, folder / "live");
+  const RunResult replayed = replay(world, folder / "live", folder / "replay");
+  EXPECT_EQ(replayed.summary.trajectory_hash, live.summary.trajectory_hash);
+  for (const char* file : {"log.yaml", "observations.csv", "observations_true_ids.csv",
+                           "ekf_associations.csv", "seif_associations.csv", "seif_map.csv"})
+    EXPECT_EQ(read_file(folder / "replay" / file), read_file(folder / "live" / file)) << file;
+}
+
+// What the sensor reads is not looked at, so nothing is lost where it is wrong.
+TEST(NamelessRun, AnAssociationDoesNotBelieveWhatIsMisread) {
+  const TemporaryFolder folder;
+  worlds::World world = nameless_world();
+  world.landmark_sensor.ids = worlds::LandmarkIds::known;
+  world.landmark_sensor.misread_probability = 0.3;
+  const RunResult run = run_live(world, folder / "run");
+  for (const EstimatorScore& score : run.summary.score.estimators) {
+    EXPECT_EQ(score.landmarks_mapped, 12) << score.name;
+    EXPECT_GT(*score.associations_right, 0.99) << score.name;
+  }
+}
+
+}  // namespace
+}  // namespace harness

@@ -1,0 +1,130 @@
+// Our filter with the condensation tree: what an update costs, and what happens where a map grows too wide
+// for it.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <vector>
+
+#include "allocation_counter.hpp"
+#include "seif/mean_recovery.hpp"
+#include "seif/path_drive.hpp"
+#include "seif/ring_drive.hpp"
+#include "seif/seif.hpp"
+
+namespace seif {
+namespace {
+
+using test::RingDrive;
+
+constexpr SeifOptions by_tree{.mean_recovery = SeifMean::tree};
+
+/// Adds the blocks touched by each update of the second round.
+void add_blocks_touched(int landmarks, int measured, unsigned seed, std::vector<std::int64_t>& blocks) {
+  RingDrive drive(landmarks, seed);
+  Seif filter(drive.setup(), by_tree);
+  for (int k = 0; k < drive.steps_for_a_round() + 100; ++k) drive.step(filter);
+  for (int k = 0; k < measured; ++k) {
+    const std::int64_t before = filter.counts().blocks_touched;
+    drive.step(filter);
+    blocks.push_back(filter.counts().blocks_touched - before);
+  }
+}
+
+/// Of some drives, in order of size.
+std::vector<std::int64_t> blocks_touched(int landmarks, int measured) {
+  std::vector<std::int64_t> blocks;
+  const unsigned drives = test::under_sanitizer ? 1 : 3;
+  for (unsigned seed = 1; seed <= drives; ++seed) add_blocks_touched(landmarks, measured, seed, blocks);
+  std::ranges::sort(blocks);
+  return blocks;
+}
+
+TEST(SeifByTree, TouchesAsManyBlocksInALargeMapAsInASmallOne) {
+  const int small_map = test::under_sanitizer ? 400 : 1'000;
+  const int measured = small_map * 3 / 2 - 200;
+  const auto small = blocks_touched(small_map, measured);
+  const auto large = blocks_touched(test::under_sanitizer ? 800 : 20'000, measured);
+  const std::size_t median = small.size() / 2;
+  const std::size_t p99 = small.size() * 99 / 100;
+  EXPECT_LE(large[median], small[median] * 11 / 10);
+  EXPECT_LE(large[p99], small[p99] * 11 / 10);
+  EXPECT_LE(large.back(), 30'000);  // 20,000 for the next zone, a message of 200 unknowns, the window
+}
+
+TEST(SeifByTree, IsTheSameToTheBitTheSecondTime) {
+  RingDrive drive_a(200, 9);
+  RingDrive drive_b(200, 9);
+  Seif a(drive_a.setup(), by_tree);
+  Seif b(drive_b.setup(), by_tree);
+  for (int k = 0; k < 2 * drive_a.steps_for_a_round(); ++k) {
+    drive_a.step(a);
+    drive_b.step(b);
+    ASSERT_EQ(a.pose().x, b.pose().x);
+    ASSERT_EQ(a.pose().theta, b.pose().theta);
+  }
+  const auto map_a = a.map();
+  const auto map_b = b.map();
+  ASSERT_EQ(map_a.size(), map_b.size());
+  for (std::size_t i = 0; i < map_a.size(); ++i) EXPECT_EQ(map_a[i].mean, map_b[i].mean);
+}
+
+/// A square that is covered in lanes of 4 m and then crossed: the boundaries of areas grow with their sides.
+test::PathDrive wide_drive(double side, int landmark_count) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> anywhere(0.0, side);
+  test::Points landmarks;
+  for (int i = 0; i < landmark_count; ++i) landmarks.emplace_back(anywhere(random), anywhere(random));
+  test::Points path;
+  for (double y = 2.0; y < side; y += 8.0) {
+    path.insert(path.end(), {{0, y}, {side, y}, {side, y + 4.0}, {0, y + 4.0}});
+  }
+  path.insert(path.end(), {{0, 0}, {side, side}});
+  return {landmarks, path, 1};
+}
+
+/// Drives to the end.
+Seif driven(test::PathDrive drive, const SeifOptions& options) {
+  Seif filter(drive.setup(), options);
+  while (!drive.at_end()) {
+    drive.advance();
+    filter.motion_update(drive.odometry());
+    filter.measurement_update(drive.scan(), test::ignore);
+  }
+  return filter;
+}
+
+/// RMSE of one map to the other, laid over it: the heading at the start, which turns all, is known to 1e-2.
+double distance_of_shapes(const std::vector<LandmarkEstimate>& map,
+                          const std::vector<LandmarkEstimate>& other) {
+  const auto columns = [](const std::vector<LandmarkEstimate>& landmarks) {
+    Eigen::Matrix2Xd means(2, landmarks.size());
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+      means.col(static_cast<Eigen::Index>(i)) = landmarks[i].mean;
+    }
+    return means;
+  };
+  const Eigen::Matrix2Xd from = columns(map);
+  const Eigen::Matrix2Xd to = columns(other);
+  const Eigen::Matrix3d T = Eigen::umeyama(from, to, false);
+  const Eigen::Matrix2Xd laid_over = (T.topLeftCorner<2, 2>() * from).colwise() + T.topRightCorner<2, 1>();
+  return std::sqrt((laid_over - to).squaredNorm() / static_cast<double>(map.size()));
+}
+
+TEST(SeifByTree, InAWideMapGroupsSaveWorkAndHardlyMoveTheMap) {
+  const double side = test::under_sanitizer ? 20.0 : 44.0;
+  const int landmarks = test::under_sanitizer ? 150 : 480;
+  SeifOptions with_groups = by_tree;
+  with_groups.tree.most_blocks = 0;  // no observation waits, so that both filters hear the same
+  SeifOptions without_groups = with_groups;
+  without_groups.tree.most_unknowns = 1'000'000;
+  const Seif exact = driven(wide_drive(side, landmarks), without_groups);
+  const Seif grouped = driven(wide_drive(side, landmarks), with_groups);
+  EXPECT_LT(grouped.counts().blocks_touched, exact.counts().blocks_touched);
+  const double moved = distance_of_shapes(grouped.map(), exact.map());
+  EXPECT_GT(moved, 0.0);
+  EXPECT_LT(moved, 1e-3);  // a twentieth of the noise of a range
+}
+
+}  // namespace
+}  // namespace seif
