@@ -20,45 +20,45 @@ Findings check_include(const std::string& path, const std::string& include) {
 const Findings none;
 
 TEST(Arrows, MayBeFollowed) {
-  EXPECT_EQ(check_include("seif/ekf.cpp", R"("seif/models.hpp")"), none);
+  EXPECT_EQ(check_include("seif/dense/ekf.cpp", R"("seif/models.hpp")"), none);
   EXPECT_EQ(check_include("worlds/load.cpp", R"("worlds/world.hpp")"), none);
   EXPECT_EQ(check_include("sensors/wheel_encoders.hpp", R"("seif/types.hpp")"), none);
   EXPECT_EQ(check_include("sim/vehicle.hpp", R"("worlds/world.hpp")"), none);
   EXPECT_EQ(check_include("sim/render/scene.cpp", R"("sim/render/scene.hpp")"), none);
   for (const char* room : {"seif", "worlds", "sensors", "sim", "sim/render", "harness", "harness/peers"}) {
-    EXPECT_EQ(check_include("harness/run.cpp", std::string("\"") + room + "/a.hpp\""), none) << room;
+    EXPECT_EQ(check_include("harness/run/run.cpp", std::string("\"") + room + "/a.hpp\""), none) << room;
   }
-  EXPECT_EQ(check_include("tests/seif/ekf_test.cpp", R"("seif/ekf.hpp")"), none);
-  EXPECT_EQ(check_include("tests/seif/ekf_test.cpp", R"("oracle.hpp")"), none);
+  EXPECT_EQ(check_include("tests/seif/dense/ekf_test.cpp", R"("seif/dense/ekf.hpp")"), none);
+  EXPECT_EQ(check_include("tests/seif/dense/ekf_test.cpp", R"("oracle.hpp")"), none);
   EXPECT_EQ(check_include("tests/render/text_test.cpp", R"("sim/render/scene.hpp")"), none);
 }
 
 TEST(Arrows, MayNotBeCrossed) {
   const std::vector<std::pair<std::string, std::string>> crossings = {
-      {"seif/ekf.cpp", "worlds/world.hpp"},
-      {"seif/ekf.cpp", "sim/simulator.hpp"},
-      {"seif/ekf.cpp", "sensors/wheel_encoders.hpp"},
-      {"seif/ekf.cpp", "harness/stream.hpp"},
+      {"seif/dense/ekf.cpp", "worlds/world.hpp"},
+      {"seif/dense/ekf.cpp", "sim/simulator.hpp"},
+      {"seif/dense/ekf.cpp", "sensors/wheel_encoders.hpp"},
+      {"seif/dense/ekf.cpp", "harness/stream/stream.hpp"},
       {"worlds/load.cpp", "seif/types.hpp"},
-      {"worlds/load.cpp", "harness/stream.hpp"},
+      {"worlds/load.cpp", "harness/stream/stream.hpp"},
       {"sensors/wheel_encoders.cpp", "seif/estimator.hpp"},
       {"sensors/wheel_encoders.cpp", "sim/simulator.hpp"},
       {"sensors/wheel_encoders.cpp", "worlds/world.hpp"},
       {"sim/simulator.cpp", "seif/types.hpp"},
       {"sim/simulator.cpp", "sensors/landmark_sensor.hpp"},
-      {"sim/simulator.cpp", "harness/stream.hpp"},
+      {"sim/simulator.cpp", "harness/stream/stream.hpp"},
       {"sim/render/scene.cpp", "sim/simulator.hpp"},
       {"sim/render/scene.cpp", "worlds/world.hpp"},
-      {"tests/seif/ekf_test.cpp", "sim/simulator.hpp"},
+      {"tests/seif/dense/ekf_test.cpp", "sim/simulator.hpp"},
       {"tests/render/text_test.cpp", "sim/simulator.hpp"},
       {"tests/sim/simulator_test.cpp", "tests/seif/oracle.hpp"},
       {"tests/sim/simulator_test.cpp", "../seif/oracle.hpp"},
-      {"harness/run.cpp", "tests/seif/oracle.hpp"},
-      {"harness/run.cpp", "stream.hpp"},
-      {"seif/ekf.cpp", "seif/../sim/simulator.hpp"},
+      {"harness/run/run.cpp", "tests/seif/oracle.hpp"},
+      {"harness/run/run.cpp", "stream.hpp"},
+      {"seif/dense/ekf.cpp", "seif/../sim/simulator.hpp"},
       {"docs/example.cpp", "seif/estimator.hpp"},
       {"harness/peers/mrpt_filter.cpp", "seif/types.hpp"},
-      {"harness/peers/mrpt_filter.cpp", "harness/stream.hpp"},
+      {"harness/peers/mrpt_filter.cpp", "harness/stream/stream.hpp"},
   };
   for (const auto& [path, include] : crossings) {
     const Findings expected = {path + ":2: may not include " + include};
@@ -72,8 +72,8 @@ TEST(Arrows, HoldInAngleBracketsToo) {
 }
 
 TEST(Arrows, NeedANameToFollow) {
-  const Findings expected = {"harness/run.cpp:2: an include that names no file"};
-  EXPECT_EQ(check_include("harness/run.cpp", "HEADER"), expected);
+  const Findings expected = {"harness/run/run.cpp:2: an include that names no file"};
+  EXPECT_EQ(check_include("harness/run/run.cpp", "HEADER"), expected);
 }
 
 TEST(Libraries, MayBeUsedAtHome) {
@@ -83,13 +83,14 @@ TEST(Libraries, MayBeUsedAtHome) {
   EXPECT_EQ(check("sim/render/font.cpp", "#include <ft2build.h>\nFT_Library library;\n"), none);
   EXPECT_EQ(check("sim/render/png.cpp", "#include <png.h>\npng_image image;\n"), none);
   EXPECT_EQ(check("worlds/load.cpp", "#include <yaml-cpp/yaml.h>\nYAML::Node node;\n"), none);
-  EXPECT_EQ(check_include("harness/summary.cpp", "<nlohmann/json.hpp>"), none);
-  EXPECT_EQ(check_include("harness/main.cpp", "<CLI/CLI.hpp>"), none);
-  EXPECT_EQ(check_include("harness/full_slam.cpp", "<ceres/problem.h>"), none);
+  EXPECT_EQ(check_include("harness/score/summary.cpp", "<nlohmann/json.hpp>"), none);
+  EXPECT_EQ(check_include("harness/commands/main.cpp", "<CLI/CLI.hpp>"), none);
+  EXPECT_EQ(check_include("harness/estimators/full_slam.cpp", "<ceres/problem.h>"), none);
   EXPECT_EQ(
       check("harness/peers/mrpt_filter.cpp", "#include <mrpt/poses/CPose2D.h>\nmrpt::poses::CPose2D pose;\n"),
       none);
-  EXPECT_EQ(check_include("harness/statistics.cpp", "<boost/math/distributions/students_t.hpp>"), none);
+  EXPECT_EQ(check_include("harness/statistics/statistics.cpp", "<boost/math/distributions/students_t.hpp>"),
+            none);
 }
 
 TEST(Libraries, StayAtHome) {
@@ -97,22 +98,22 @@ TEST(Libraries, StayAtHome) {
       {"sim/simulator.hpp", "btBulletDynamicsCommon.h"},
       {"sim/kinematic_simulator.cpp", "btBulletDynamicsCommon.h"},
       {"sim/render/scene.cpp", "LinearMath/btVector3.h"},
-      {"harness/run.cpp", "BulletCollision/CollisionShapes/btBoxShape.h"},
+      {"harness/run/run.cpp", "BulletCollision/CollisionShapes/btBoxShape.h"},
       {"tests/sim/simulator_test.cpp", "bullet/btBulletCollisionCommon.h"},
       {"sim/simulator.cpp", "GL/osmesa.h"},
-      {"harness/film.cpp", "GL/gl.h"},
-      {"harness/film.cpp", "png.h"},
+      {"harness/film/film.cpp", "GL/gl.h"},
+      {"harness/film/film.cpp", "png.h"},
       {"sim/simulator.cpp", "ft2build.h"},
-      {"harness/plot.cpp", "freetype/freetype.h"},
+      {"harness/figures/plot.cpp", "freetype/freetype.h"},
       {"worlds/load.hpp", "yaml-cpp/yaml.h"},
-      {"harness/replay.cpp", "yaml-cpp/yaml.h"},
-      {"harness/summary.hpp", "nlohmann/json.hpp"},
+      {"harness/commands/replay.cpp", "yaml-cpp/yaml.h"},
+      {"harness/score/summary.hpp", "nlohmann/json.hpp"},
       {"worlds/schema.hpp", "nlohmann/json_fwd.hpp"},
       {"sim/simulator.cpp", "CLI/CLI.hpp"},
-      {"harness/full_slam.hpp", "ceres/problem.h"},
-      {"harness/statistics.hpp", "boost/math/distributions/students_t.hpp"},
+      {"harness/estimators/full_slam.hpp", "ceres/problem.h"},
+      {"harness/statistics/statistics.hpp", "boost/math/distributions/students_t.hpp"},
       {"sim/simulator.cpp", "ceres/solver.h"},
-      {"harness/mrpt_ekf.cpp", "mrpt/poses/CPose2D.h"},
+      {"harness/estimators/mrpt_ekf.cpp", "mrpt/poses/CPose2D.h"},
       {"harness/peers/mrpt_filter.hpp", "mrpt/poses/CPose2D.h"},
   };
   for (const auto& [path, include] : strays) {
@@ -123,14 +124,11 @@ TEST(Libraries, StayAtHome) {
 }
 
 TEST(Libraries, AreNotNamedAbroadEither) {
-  const std::vector<std::pair<std::string, std::string>> names = {{"sim/simulator.hpp", "btRigidBody"},
-                                                                  {"harness/film.cpp", "OSMesaContext"},
-                                                                  {"harness/film.cpp", "GL_RGB"},
-                                                                  {"harness/film.cpp", "png_image"},
-                                                                  {"tests/render/text_test.cpp", "FT_Face"},
-                                                                  {"worlds/load.hpp", "YAML"},
-                                                                  {"harness/mrpt_ekf.hpp", "mrpt"},
-                                                                  {"worlds/schema.hpp", "nlohmann"}};
+  const std::vector<std::pair<std::string, std::string>> names = {
+      {"sim/simulator.hpp", "btRigidBody"},        {"harness/film/film.cpp", "OSMesaContext"},
+      {"harness/film/film.cpp", "GL_RGB"},         {"harness/film/film.cpp", "png_image"},
+      {"tests/render/text_test.cpp", "FT_Face"},   {"worlds/load.hpp", "YAML"},
+      {"harness/estimators/mrpt_ekf.hpp", "mrpt"}, {"worlds/schema.hpp", "nlohmann"}};
   for (const auto& [path, name] : names) {
     const Findings findings = check(path, "#pragma once\nclass " + name + ";\n");
     ASSERT_EQ(findings.size(), 1U) << path;
@@ -141,9 +139,9 @@ TEST(Libraries, AreNotNamedAbroadEither) {
 TEST(Libraries, AreNotHandedOnThroughHeaders) {
   const Source inner = parse_source({"sim/vehicle.hpp", "#include <btBulletDynamicsCommon.h>\n"});
   const Source outer = parse_source({"sim/ground.hpp", "#include \"sim/vehicle.hpp\"\n"});
-  const Source user = parse_source({"harness/run.cpp", "#include \"sim/ground.hpp\"\n"});
+  const Source user = parse_source({"harness/run/run.cpp", "#include \"sim/ground.hpp\"\n"});
   EXPECT_EQ(check_reach({inner, outer}), none);
-  const Findings expected = {"harness/run.cpp:1: gets Bullet from sim/vehicle.hpp"};
+  const Findings expected = {"harness/run/run.cpp:1: gets Bullet from sim/vehicle.hpp"};
   EXPECT_EQ(check_reach({inner, outer, user}), expected);
 }
 
@@ -164,23 +162,24 @@ TEST(Libraries, AreFollowedThroughCircles) {
 
 TEST(Scorer, KnowsNoEstimatorAndNoSimulator) {
   const Source types = parse_source({"seif/types.hpp", ""});
-  const Source ekf = parse_source({"seif/ekf.hpp", "#include \"seif/types.hpp\"\n"});
-  const Source live = parse_source({"harness/live.hpp", "#include \"seif/ekf.hpp\"\n"});
-  EXPECT_EQ(check_reach({types, parse_source({"harness/score.hpp", "#include \"seif/types.hpp\"\n"})}), none);
-  const Findings expected = {"harness/score.cpp:1: the scorer may not know seif/ekf.hpp"};
-  EXPECT_EQ(
-      check_reach({types, ekf, live, parse_source({"harness/score.cpp", "#include \"harness/live.hpp\"\n"})}),
-      expected);
+  const Source ekf = parse_source({"seif/dense/ekf.hpp", "#include \"seif/types.hpp\"\n"});
+  const Source live = parse_source({"harness/run/live.hpp", "#include \"seif/dense/ekf.hpp\"\n"});
+  EXPECT_EQ(check_reach({types, parse_source({"harness/score/score.hpp", "#include \"seif/types.hpp\"\n"})}),
+            none);
+  const Findings expected = {"harness/score/score.cpp:1: the scorer may not know seif/dense/ekf.hpp"};
+  EXPECT_EQ(check_reach({types, ekf, live,
+                         parse_source({"harness/score/score.cpp", "#include \"harness/run/live.hpp\"\n"})}),
+            expected);
 }
 
 TEST(Purity, LetsEigenAndTheStandardLibraryIn) {
-  for (const char* room : {"seif/ekf.cpp", "sensors/wheel_encoders.cpp"}) {
+  for (const char* room : {"seif/dense/ekf.cpp", "sensors/wheel_encoders.cpp"}) {
     EXPECT_EQ(check(room, "#include <Eigen/Cholesky>\n#include <cmath>\n#include <random>\n"), none);
   }
 }
 
 TEST(Purity, KeepsLibrariesClocksFilesAndOutputOut) {
-  for (const std::string path : {"seif/ekf.cpp", "sensors/wheel_encoders.cpp"}) {
+  for (const std::string path : {"seif/dense/ekf.cpp", "sensors/wheel_encoders.cpp"}) {
     for (const std::string header : {"fmt/format.h", "sys/time.h", "unistd.h", "gtest/gtest.h", "chrono",
                                      "ctime", "iostream", "fstream", "thread", "cstdio"}) {
       const Findings expected = {path + ":2: may not include <" + header + ">"};
@@ -190,7 +189,7 @@ TEST(Purity, KeepsLibrariesClocksFilesAndOutputOut) {
       EXPECT_EQ(check(path, "auto a = " + word + ";\n").size(), 1U) << word;
     }
   }
-  EXPECT_EQ(check_include("harness/run.cpp", "<chrono>"), none);
+  EXPECT_EQ(check_include("harness/run/run.cpp", "<chrono>"), none);
 }
 
 TEST(Determinism, AllowsSeededEngines) {
@@ -203,7 +202,7 @@ TEST(Determinism, ForbidsChanceAndTimeThatNobodyHandedOver) {
   for (const std::string code :
        {"std::random_device device;", "srand(1);", "int a = rand();", "int a = std::rand ();",
         "auto a = time(nullptr);", "auto a = std::time(NULL);", "auto a = time(0);"}) {
-    for (const std::string path : {"harness/run.cpp", "tests/sim/simulator_test.cpp"}) {
+    for (const std::string path : {"harness/run/run.cpp", "tests/sim/simulator_test.cpp"}) {
       const Findings findings = check(path, "\n" + code + "\n");
       ASSERT_EQ(findings.size(), 1U) << code;
       EXPECT_TRUE(findings.front().starts_with(path + ":2: ")) << findings.front();
@@ -291,7 +290,7 @@ TEST(LinkLines, BelongToTheOneTargetOfTheRoom) {
 
 TEST(Paths, AreThoseOfTheArchitecture) {
   EXPECT_EQ(
-      check_paths({".gitignore", ".ci/run", "README.md", "LICENSE", "seifbed", "test", "seif/ekf.cpp",
+      check_paths({".gitignore", ".ci/run", "README.md", "LICENSE", "seifbed", "test", "seif/dense/ekf.cpp",
                    "docs/log_format.md", "CMakeLists.txt", "CMakePresets.json", "worlds/courtyard.yaml"}),
       none);
   const Findings expected = {"scripts: not at the top"};

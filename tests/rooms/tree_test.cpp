@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "floors.hpp"
 #include "rules.hpp"
+#include "sizes.hpp"
 #include "source.hpp"
 
 namespace rooms {
@@ -37,6 +39,26 @@ TEST(Tree, EverySourceKeepsToItsRoom) {
   Findings findings;
   for (const Source& source : tree_sources())
     std::ranges::copy(check_source(source), std::back_inserter(findings));
+  EXPECT_EQ(listed(findings), "");
+}
+
+TEST(Tree, ArrowsInHarnessRunDown) {
+  Findings findings;
+  for (const Source& source : tree_sources())
+    std::ranges::copy(check_floors(source), std::back_inserter(findings));
+  EXPECT_EQ(listed(findings), "");
+  EXPECT_EQ(listed(check_top_of_harness(list_tree(SEIFBED_SOURCE_DIR))), "");
+}
+
+TEST(Tree, HeadersAndFunctionsAreShort) {
+  Findings findings;
+  for (const TextFile& file : read_sources(SEIFBED_SOURCE_DIR)) {
+    if (file.path.starts_with("tests/")) continue;
+    // The condensation tree still has the size that it grew to.
+    if (file.path != "seif/tree/condensation_tree.hpp")
+      std::ranges::copy(check_header_length(file), std::back_inserter(findings));
+    std::ranges::copy(check_function_lengths(parse_source(file)), std::back_inserter(findings));
+  }
   EXPECT_EQ(listed(findings), "");
 }
 

@@ -1,0 +1,52 @@
+// Arrows between the sub-rooms of harness/ run down, and its top stays small.
+#include "floors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace rooms {
+namespace {
+
+const Findings none;
+
+Findings check(const std::string& path, const std::string& include) {
+  return check_floors(parse_source({path, "#include \"" + include + "\"\n"}));
+}
+
+TEST(Floors, LetArrowsRunDown) {
+  EXPECT_EQ(check("harness/commands/run.cpp", "harness/run/run.hpp"), none);
+  EXPECT_EQ(check("harness/score/details.cpp", "harness/files/csv_reader.hpp"), none);
+  EXPECT_EQ(check("harness/run/run.cpp", "harness/run/resume.hpp"), none);
+  EXPECT_EQ(check("harness/run/run.cpp", "seif/estimator.hpp"), none);
+  EXPECT_EQ(check("sim/simulator.cpp", "worlds/world.hpp"), none);
+}
+
+TEST(Floors, LetNoArrowRunUpOrAlong) {
+  const Findings up = {"harness/files/a.cpp:1: harness/run/run.hpp is not on a lower floor"};
+  EXPECT_EQ(check("harness/files/a.cpp", "harness/run/run.hpp"), up);
+  const Findings along = {"harness/film/a.cpp:1: harness/stress/stress.hpp is not on a lower floor"};
+  EXPECT_EQ(check("harness/film/a.cpp", "harness/stress/stress.hpp"), along);
+  const Findings top = {"harness/film/a.cpp:1: harness/stress.hpp is not on a lower floor"};
+  EXPECT_EQ(check("harness/film/a.cpp", "harness/stress.hpp"), top);
+}
+
+TEST(Floors, HoldEveryFileOfHarness) {
+  const Findings flat = {"harness/a.cpp:1: is in no sub-room of harness/"};
+  EXPECT_EQ(check("harness/a.cpp", "harness/run/run.hpp"), flat);
+  const Findings unknown = {"harness/attic/a.cpp:1: is in no sub-room of harness/"};
+  EXPECT_EQ(check("harness/attic/a.cpp", "harness/run/run.hpp"), unknown);
+}
+
+TEST(Floors, LeaveTheTopOfHarnessNearlyEmpty) {
+  EXPECT_EQ(check_top_of_harness({"harness/1", "harness/2", "harness/3", "harness/4", "harness/5",
+                                  "harness/run/run.cpp", "seif/seif.cpp"}),
+            none);
+  const Findings expected = {"harness: 6 files stand at its top, at most 5 may"};
+  EXPECT_EQ(
+      check_top_of_harness({"harness/1", "harness/2", "harness/3", "harness/4", "harness/5", "harness/6"}),
+      expected);
+}
+
+}  // namespace
+}  // namespace rooms

@@ -1,0 +1,17 @@
+// How long a header and a function may be. Each check returns what is too long, as `path:line: what is wrong`.
+#pragma once
+
+#include "rules.hpp"
+#include "source.hpp"
+
+namespace rooms {
+
+constexpr int longest_header = 150;   // [lines]
+constexpr int longest_function = 50;  // [lines] from its opening to its closing brace
+
+Findings check_header_length(const TextFile& file);
+
+/// A function is recognised by its opening brace behind a parameter list, outside of any function.
+Findings check_function_lengths(const Source& source);
+
+}  // namespace rooms

@@ -1,0 +1,50 @@
+// What is too long is found, and what is not is left alone.
+#include "sizes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace rooms {
+namespace {
+
+const Findings none;
+
+std::string lines(int n) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += "a();\n";
+  return text;
+}
+
+TEST(Sizes, OfHeadersAreBounded) {
+  EXPECT_EQ(check_header_length({"seif/a.hpp", lines(150)}), none);
+  EXPECT_EQ(check_header_length({"seif/a.cpp", lines(151)}), none);
+  const Findings expected = {"seif/a.hpp:1: a header of 151 lines"};
+  EXPECT_EQ(check_header_length({"seif/a.hpp", lines(151)}), expected);
+}
+
+TEST(Sizes, OfFunctionsAreBounded) {
+  for (const std::string head :
+       {"void f() ", "int A::f(int x) const ", "A::A() : a_(1) ", "void f() noexcept "}) {
+    EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", head + "{\n" + lines(48) + "}\n"})), none)
+        << head;
+    const Findings expected = {"a.cpp:1: a function of 51 lines"};
+    EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", head + "{\n" + lines(49) + "}\n"})), expected)
+        << head;
+  }
+}
+
+TEST(Sizes, OfNamespacesAndClassesAreNot) {
+  EXPECT_EQ(
+      check_function_lengths(parse_source({"a.cpp", "namespace a {\nclass A {\n" + lines(80) + "};\n}\n"})),
+      none);
+}
+
+TEST(Sizes, AreThoseOfEachFunctionInTurn) {
+  const std::string text = "void f() {\nif (a) {\n" + lines(20) + "}\n}\nvoid g() {\n" + lines(60) + "}\n";
+  const Findings expected = {"a.cpp:25: a function of 62 lines"};
+  EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", text})), expected);
+}
+
+}  // namespace
+}  // namespace rooms
