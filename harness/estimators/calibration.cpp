@@ -22,7 +22,7 @@ constexpr double outlier_probability = 0.01;
 /// [1/(m rad)] of an outlier: a range of up to 10 m, any bearing.
 constexpr double outlier_density = 1.0 / (10.0 * 2.0 * std::numbers::pi);
 
-constexpr double smallest_sd = 1e-4;  // [m, rad] of a search; a sensor has some error
+constexpr double smallest_sensor_sd = 1e-4;  // [m, rad] of a search; a sensor has some error
 
 using Parameters = Eigen::VectorXd;  // logarithms of those standard deviations that are not zero
 
@@ -118,7 +118,7 @@ class Search {
   NoiseValues values_at(const Parameters& x) const {
     NoiseValues values = values_;
     for (std::size_t i = 0; i < free_.size(); ++i)
-      values[free_[i]] = std::max(smallest_sd, std::exp(x(static_cast<Eigen::Index>(i))));
+      values[free_[i]] = std::max(smallest_sensor_sd, std::exp(x(static_cast<Eigen::Index>(i))));
     return values;
   }
 

@@ -28,7 +28,7 @@ namespace {
 /// lets through is 0.3 mm after ten thousand poses, and the rounding of J' J is 1e-6 of a covariance, where
 /// it would be 1e-5 with a third of it. A motion without any noise makes no pose of its own
 /// (is_certain), so a robot at rest is exact.
-constexpr double smallest_sd = 3e-6;
+constexpr double smallest_motion_sd = 3e-6;
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor23 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
@@ -57,7 +57,8 @@ Eigen::Matrix<double, n, n> whitening(const Eigen::Matrix<double, n, n>& covaria
 /// The same for a motion's, of any rank.
 Eigen::Matrix3d whitening_of_motion(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const Eigen::Vector3d sd = eigen.eigenvalues().cwiseMax(smallest_sd * smallest_sd).cwiseSqrt();
+  const Eigen::Vector3d sd =
+      eigen.eigenvalues().cwiseMax(smallest_motion_sd * smallest_motion_sd).cwiseSqrt();
   return sd.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
@@ -243,7 +244,7 @@ Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance) {
 }
 
 bool is_certain(const seif::Odometry& motion) {
-  return motion.covariance.trace() <= smallest_sd * smallest_sd;
+  return motion.covariance.trace() <= smallest_motion_sd * smallest_motion_sd;
 }
 
 std::vector<seif::Pose2> poses_on_map(const FullSlam& slam, std::span<const Eigen::Vector2d> landmarks) {

@@ -17,7 +17,6 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double trail_spacing = 0.05;    // [m]
 constexpr std::size_t others_read = 256;  // [-] landmarks out of view whose means a frame reads, in turn
 // How many scans lie between two refreshes of what costs more than a constant: a share of that cost.
 constexpr std::size_t landmarks_for_each_scan = 50;  // [-] the matrix is read in a pass over the map

@@ -18,7 +18,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double same_time = 1e-9;      // [s]
-constexpr double trail_spacing = 0.05;  // [m]
 constexpr double longest = 40.0;        // [s] of a film whose speed is not said
 constexpr double past_notes = 60.0;     // [-] of what went before the first frame
 constexpr double farthest_view = 12.0;  // [-] times what is of interest about the robot

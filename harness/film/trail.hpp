@@ -7,6 +7,9 @@
 
 namespace harness {
 
+/// Between the points of a trail. [m]
+inline constexpr double trail_spacing = 0.05;
+
 class Trail {
  public:
   /// Points nearer to the one before than `spacing` [m] are left out.

@@ -10,7 +10,7 @@ namespace harness {
 
 namespace {
 
-constexpr double start_sd = 1e-3;  // [m, rad] the robot begins at the origin
+constexpr double freiburg_start_sd = 1e-3;  // [m, rad] the robot begins at the origin
 
 std::vector<TrueLandmark> read_world(const std::filesystem::path& file) {
   RowReader rows(file, ' ');
@@ -35,7 +35,7 @@ LogNoise FreiburgLog::default_noise() {
 FreiburgLog::FreiburgLog(const std::filesystem::path& sensor_data) : rows_(sensor_data, ' ') {
   description_.name = "freiburg";
   description_.noise = *default_noise().sensor;
-  description_.start.covariance = start_sd * start_sd * Eigen::Matrix3d::Identity();
+  description_.start.covariance = freiburg_start_sd * freiburg_start_sd * Eigen::Matrix3d::Identity();
   const std::filesystem::path world = sensor_data.parent_path() / "world.dat";
   if (std::filesystem::exists(world)) description_.landmarks = read_world(world);
   row_left_ = read_row();

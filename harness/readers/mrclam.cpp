@@ -11,7 +11,7 @@ namespace {
 
 constexpr seif::LandmarkId last_robot = 5;  // subjects 1 to 5 are robots
 constexpr double truth_gap = 0.5;           // [s] the cameras took a picture every hundredth
-constexpr double start_sd = 0.01;           // [m, rad] of the motion capture, with room
+constexpr double mrclam_start_sd = 0.01;    // [m, rad] of the motion capture, with room
 
 std::map<std::int64_t, seif::LandmarkId> read_barcodes(const std::filesystem::path& file) {
   RowReader rows(file, ' ');
@@ -64,7 +64,7 @@ MrclamLog::MrclamLog(const std::filesystem::path& folder, int robot)
   }
   begin();
   if (description_.true_start) description_.start.mean = description_.true_start->T_world_robot;
-  description_.start.covariance = start_sd * start_sd * Eigen::Matrix3d::Identity();
+  description_.start.covariance = mrclam_start_sd * mrclam_start_sd * Eigen::Matrix3d::Identity();
 }
 
 std::optional<VelocityRow> MrclamLog::read_velocity() {

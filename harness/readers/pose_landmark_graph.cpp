@@ -14,7 +14,7 @@ namespace harness {
 
 namespace {
 
-constexpr double start_sd = 1e-3;  // [m, rad] the frame is the first pose's
+constexpr double graph_start_sd = 1e-3;  // [m, rad] the frame is the first pose's
 
 /// An upper triangle, row by row; zero below.
 template <int Size>
@@ -128,7 +128,7 @@ PoseLandmarkGraph::PoseLandmarkGraph(const std::filesystem::path& file,
     : motions_(file, GraphEdges::Kind::motions), landmarks_(file, GraphEdges::Kind::landmarks) {
   description_.name = file.stem().string();
   description_.noise = {1.0, 0.0, 1.0};  // every observation has a covariance of its own
-  description_.start.covariance = start_sd * start_sd * Eigen::Matrix3d::Identity();
+  description_.start.covariance = graph_start_sd * graph_start_sd * Eigen::Matrix3d::Identity();
   next_motion_ = motions_.next();
   next_landmark_ = landmarks_.next();
   if (!next_motion_) throw BadInput(fmt::format("{}: there is no motion in it", file.string()));

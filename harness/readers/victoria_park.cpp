@@ -15,7 +15,7 @@ constexpr double wheel_base = 2.83;   // [m] L, from axle to axle
 constexpr double half_track = 0.76;   // [m] H, from the middle of the rear axle to the wheel with the encoder
 constexpr double laser_ahead = 3.78;  // [m] a, of the rear axle
 constexpr double laser_beside = 0.5;  // [m] b, to the left
-constexpr double start_sd = 1e-3;     // [m, rad] the frame is that of the first pose
+constexpr double park_start_sd = 1e-3;   // [m, rad] the frame is that of the first pose
 constexpr double widest_steering = 1.2;  // [rad] no car steers as far; the model has a pole at 1.3
 
 }  // namespace
@@ -39,7 +39,7 @@ VictoriaParkLog::VictoriaParkLog(const std::filesystem::path& folder)
   description_.name = "victoria_park";
   description_.T_robot_sensor = {laser_ahead, laser_beside, 0.0};
   description_.noise = *default_noise().sensor;
-  description_.start.covariance = start_sd * start_sd * Eigen::Matrix3d::Identity();
+  description_.start.covariance = park_start_sd * park_start_sd * Eigen::Matrix3d::Identity();
   description_.known_association = false;
   begin();
 }

@@ -12,6 +12,7 @@
 #include "harness/score/score_folder.hpp"
 #include "harness/score/true_names.hpp"
 #include "harness/statistics/chi_square.hpp"
+#include "harness/statistics/degrees.hpp"
 #include "harness/statistics/ellipse.hpp"
 #include "harness/stream/log_stream.hpp"
 
@@ -23,7 +24,6 @@ constexpr std::size_t most_bins = 1'200;       // [-] of a curve over time
 constexpr std::size_t most_poses = 4'000;      // [-] of a trajectory
 constexpr std::size_t most_landmarks = 4'000;  // [-] of a map
 constexpr std::size_t most_ellipses = 500;     // [-] of a map
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 FigureCurve curve_of(const Drawn& estimator, Mark mark, Points points) {
   return {estimator.name, estimator.colour, mark, std::move(points.x), std::move(points.y)};
@@ -123,7 +123,7 @@ std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::ve
     for (const PosePair& pair : read_poses(folder, one.name)) {
       const Eigen::Vector3d error = pose_error(pair.est_pose, pair.true_pose);
       add(pair.t, error.head<2>().norm(), points[0]);
-      add(pair.t, degrees * error.z(), points[1]);
+      add(pair.t, degrees_per_radian * error.z(), points[1]);
     }
     for (std::size_t i = 0; i < 2; ++i) {
       if (points[i].x.empty()) continue;

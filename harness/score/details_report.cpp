@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "harness/files/text_table.hpp"
 #include "harness/score/details.hpp"
 #include "harness/statistics/chi_square.hpp"
+#include "harness/statistics/degrees.hpp"
 
 namespace harness {
 
@@ -14,31 +14,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double degrees = 180.0 / std::numbers::pi;
-
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 void add_trajectory(const RunDetails& run, const EstimatorDetails& details, Json& json) {
   for (std::size_t i = 0; i < details.rpe.size(); ++i) {
     json["rpe_along_path"][fmt::format("{}", run.choices.distances[i])] = {
-        {"trans_m", number(details.rpe[i].translation)}, {"rot_rad", number(details.rpe[i].rotation)}};
+        {"trans_m", number_or_null(details.rpe[i].translation)},
+        {"rot_rad", number_or_null(details.rpe[i].rotation)}};
   }
   for (std::size_t i = 0; i < response_updates.size(); ++i)
-    json["loop_closure_error_m"][fmt::format("{}", response_updates[i])] = number(details.closure_error[i]);
+    json["loop_closure_error_m"][fmt::format("{}", response_updates[i])] =
+        number_or_null(details.closure_error[i]);
 }
 
 void add_rebuilt(const RebuiltScore& rebuilt, Json& json) {
-  json["nees_landmark_from_robot"] = number(rebuilt.nees_landmark_from_robot);
-  json["nees_landmark_from_robot_final"] = number(rebuilt.nees_landmark_from_robot_final);
-  json["nees_landmark_from_robot_inside"] = number(rebuilt.landmarks_from_robot_inside);
-  json["nis"] = number(rebuilt.nis);
-  json["nis_inside"] = number(rebuilt.nis_inside);
+  json["nees_landmark_from_robot"] = number_or_null(rebuilt.nees_landmark_from_robot);
+  json["nees_landmark_from_robot_final"] = number_or_null(rebuilt.nees_landmark_from_robot_final);
+  json["nees_landmark_from_robot_inside"] = number_or_null(rebuilt.landmarks_from_robot_inside);
+  json["nis"] = number_or_null(rebuilt.nis);
+  json["nis_inside"] = number_or_null(rebuilt.nis_inside);
   json["nis_inside_of"] = rebuilt.observations;
   const ScanNisScore& scans = rebuilt.scans;
-  json["nis_scan"] = number(scans.nis);
-  json["nis_scan_band"] = {{"low", number(scans.band ? std::optional(scans.band->low) : std::nullopt)},
-                           {"high", number(scans.band ? std::optional(scans.band->high) : std::nullopt)}};
-  json["nis_scan_inside"] = number(scans.inside);
+  json["nis_scan"] = number_or_null(scans.nis);
+  json["nis_scan_band"] = {
+      {"low", number_or_null(scans.band ? std::optional(scans.band->low) : std::nullopt)},
+      {"high", number_or_null(scans.band ? std::optional(scans.band->high) : std::nullopt)}};
+  json["nis_scan_inside"] = number_or_null(scans.inside);
   json["nis_scan_inside_of"] = scans.count;
 }
 
@@ -46,17 +47,17 @@ void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json&
   const std::optional<MapCounts>& map = details.map;
   json["landmarks_missed"] = map ? Json(map->missed) : Json(nullptr);
   json["landmarks_duplicate"] = map ? Json(map->duplicate) : Json(nullptr);
-  json["landmark_rmse_from_robot_m"] = number(details.landmark_rmse_from_robot);
-  json["nees_pose_inside"] = number(details.pose_inside);
+  json["landmark_rmse_from_robot_m"] = number_or_null(details.landmark_rmse_from_robot);
+  json["nees_pose_inside"] = number_or_null(details.pose_inside);
   json["nees_pose_inside_of"] = details.poses_scored;
-  json["nees_landmark_inside"] = number(details.landmarks_inside);
+  json["nees_landmark_inside"] = number_or_null(details.landmarks_inside);
   add_rebuilt(details.rebuilt, json);
   if (details.from_reference) {
     const DistanceFromReference& distance = *details.from_reference;
-    json["from_reference"] = {{"landmark_rmse_m", number(distance.landmarks.rmse)},
-                              {"landmark_rmse_aligned_m", number(distance.landmarks.rmse_aligned)},
-                              {"ate_rmse_m", number(distance.trajectory.rmse)},
-                              {"ate_rmse_aligned_m", number(distance.trajectory.rmse_aligned)}};
+    json["from_reference"] = {{"landmark_rmse_m", number_or_null(distance.landmarks.rmse)},
+                              {"landmark_rmse_aligned_m", number_or_null(distance.landmarks.rmse_aligned)},
+                              {"ate_rmse_m", number_or_null(distance.trajectory.rmse)},
+                              {"ate_rmse_aligned_m", number_or_null(distance.trajectory.rmse_aligned)}};
   }
   add_trajectory(run, details, json);
 }
@@ -120,7 +121,8 @@ TextRow path_row(const EstimatorDetails& details) {
   TextRow row = {details.name};
   for (const RelativePoseError& error : details.rpe) {
     row.push_back(number_cell(error.translation, 4));
-    row.push_back(number_cell(error.rotation ? std::optional(*error.rotation * degrees) : std::nullopt, 3));
+    row.push_back(
+        number_cell(error.rotation ? std::optional(*error.rotation * degrees_per_radian) : std::nullopt, 3));
   }
   return row;
 }

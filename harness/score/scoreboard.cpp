@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <optional>
 #include <string_view>
 
 #include "harness/files/text_table.hpp"
+#include "harness/statistics/degrees.hpp"
 #include "harness/statistics/divergence.hpp"
 
 namespace harness {
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 std::string number(std::optional<double> value, int decimals, double scale = 1.0) {
   if (value) *value *= scale;
@@ -21,7 +19,7 @@ std::string number(std::optional<double> value, int decimals, double scale = 1.0
 }
 
 template <class Integer>
-std::string count(const std::optional<Integer>& value) {
+std::string count_text(const std::optional<Integer>& value) {
   return value ? fmt::format("{}", *value) : "-";
 }
 
@@ -35,12 +33,12 @@ std::optional<double> part(const std::optional<Percentiles>& values, double Perc
 
 TextRow accuracy_row(const EstimatorScore& score) {
   return {score.name,
-          count(score.landmarks_mapped),
+          count_text(score.landmarks_mapped),
           number(score.landmarks.rmse, 3),
           number(score.landmarks.rmse_aligned, 3),
           number(score.trajectory.rmse, 3),
           number(score.rpe.translation, 4),
-          number(score.rpe.rotation, 3, degrees),
+          number(score.rpe.rotation, 3, degrees_per_radian),
           number(score.nees_pose, 2),
           number(score.nees_landmark, 2)};
 }
@@ -53,8 +51,8 @@ TextRow cost_row(const EstimatorScore& score) {
           number(part(score.update_us, &Percentiles::max), 1),
           number(part(score.blocks_touched, &Percentiles::p50), 0),
           number(part(score.blocks_touched, &Percentiles::max), 0),
-          count(score.links),
-          count(score.active_max),
+          count_text(score.links),
+          count_text(score.active_max),
           memory(score.memory_bytes)};
 }
 

@@ -7,7 +7,7 @@ namespace render {
 
 namespace {
 
-const char* const vertex_shader = R"(
+const char* const capsule_vertex_shader = R"(
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in float width;
@@ -33,7 +33,7 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const capsule_fragment_shader = R"(
 flat in vec4 ends;
 flat in vec4 bisectors;
 flat in float radius;
@@ -87,10 +87,10 @@ Eigen::Vector3f on_image(const Eigen::Vector4d& p) { return (p.head<3>() / p.w()
 }  // namespace
 
 CapsulePainter::CapsulePainter(const Gl& gl)
-    : over_(gl, "capsules", std::string(frame_glsl) + vertex_shader,
-            std::string(pixel_glsl) + everywhere_glsl + fragment_shader),
-      behind_(gl, "capsules behind things", std::string(frame_glsl) + vertex_shader,
-              std::string(pixel_glsl) + layer_glsl + fragment_shader),
+    : over_(gl, "capsules", std::string(frame_glsl) + capsule_vertex_shader,
+            std::string(pixel_glsl) + everywhere_glsl + capsule_fragment_shader),
+      behind_(gl, "capsules behind things", std::string(frame_glsl) + capsule_vertex_shader,
+              std::string(pixel_glsl) + layer_glsl + capsule_fragment_shader),
       array_(gl, {{3}, {3}, {1}, {4}, {Attribute::colour}}) {}
 
 void CapsulePainter::paint(const std::vector<Capsule>& capsules, const Frame& frame, Rows rows) {

@@ -12,7 +12,7 @@ namespace {
 // [px] thinner ellipses are drawn as if they were that wide: a line, or a dot.
 constexpr double least_minor = 0.05;
 
-const char* const vertex_shader = R"(
+const char* const ellipse_vertex_shader = R"(
 layout(location = 0) in vec4 box;
 layout(location = 1) in vec2 reference;
 layout(location = 2) in vec3 disk_x;
@@ -43,7 +43,7 @@ void main() {
 )";
 
 // Distances to first order: a function that vanishes on the curve, over the length of its gradient [1/px].
-const char* const fragment_shader = R"(
+const char* const ellipse_fragment_shader = R"(
 flat in vec2 zero;
 flat in vec3 h_x, h_y, h_1;
 flat in vec4 edge;
@@ -166,10 +166,10 @@ std::optional<ScreenEllipse> on_screen(const Ellipse& ellipse, const Projection&
 }
 
 EllipsePainter::EllipsePainter(const Gl& gl)
-    : over_(gl, "ellipses", std::string(frame_glsl) + vertex_shader,
-            std::string(everywhere_glsl) + fragment_shader),
-      behind_(gl, "ellipses behind things", std::string(frame_glsl) + vertex_shader,
-              std::string(layer_glsl) + fragment_shader),
+    : over_(gl, "ellipses", std::string(frame_glsl) + ellipse_vertex_shader,
+            std::string(everywhere_glsl) + ellipse_fragment_shader),
+      behind_(gl, "ellipses behind things", std::string(frame_glsl) + ellipse_vertex_shader,
+              std::string(layer_glsl) + ellipse_fragment_shader),
       array_(gl, {{4}, {2}, {3}, {3}, {3}, {3}, {4}, {2}, {Attribute::colour}, {Attribute::colour}}) {}
 
 void EllipsePainter::paint(const std::vector<ScreenEllipse>& ellipses, const Frame& frame) {

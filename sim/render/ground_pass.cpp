@@ -7,7 +7,7 @@ namespace render {
 namespace {
 
 // A part of the ground.
-const char* const vertex_shader = R"(
+const char* const ground_vertex_shader = R"(
 layout(location = 0) in vec2 corner_of_part;
 layout(location = 1) in vec2 along;
 layout(location = 2) in vec2 across;
@@ -19,7 +19,7 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const ground_fragment_shader = R"(
 uniform vec2 corner;         // [px] of the view
 uniform bool perspective;
 uniform mat3 ray_start;
@@ -73,9 +73,10 @@ float phase_of(double origin, double period) {
 
 GroundPass::GroundPass(const Gl& gl)
     : gl_(gl),
-      open_(gl, "ground", vertex_shader, std::string(sunlight_glsl) + open_glsl + fragment_shader),
-      shaded_(gl, "shaded ground", vertex_shader,
-              std::string(sunlight_glsl) + shadows_glsl + fragment_shader),
+      open_(gl, "ground", ground_vertex_shader,
+            std::string(sunlight_glsl) + open_glsl + ground_fragment_shader),
+      shaded_(gl, "shaded ground", ground_vertex_shader,
+              std::string(sunlight_glsl) + shadows_glsl + ground_fragment_shader),
       parts_(gl, {{2}, {2}, {2}}),
       whole_(1) {}
 

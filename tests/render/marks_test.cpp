@@ -14,7 +14,7 @@ namespace render {
 namespace {
 
 using namespace test;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int width = 320;
 constexpr int height = 180;
 

@@ -8,7 +8,7 @@ namespace render::test {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Colour wall = {0.86F, 0.87F, 0.88F};
 constexpr Colour dark = {0.20F, 0.22F, 0.26F};
 constexpr Colour blue = {0.16F, 0.42F, 0.75F};

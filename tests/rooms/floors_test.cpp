@@ -10,32 +10,32 @@ namespace {
 
 const Findings none;
 
-Findings check(const std::string& path, const std::string& include) {
+Findings check_includes(const std::string& path, const std::string& include) {
   return check_floors(parse_source({path, "#include \"" + include + "\"\n"}));
 }
 
 TEST(Floors, LetArrowsRunDown) {
-  EXPECT_EQ(check("harness/commands/run.cpp", "harness/run/run.hpp"), none);
-  EXPECT_EQ(check("harness/score/details.cpp", "harness/files/csv_reader.hpp"), none);
-  EXPECT_EQ(check("harness/run/run.cpp", "harness/run/resume.hpp"), none);
-  EXPECT_EQ(check("harness/run/run.cpp", "seif/estimator.hpp"), none);
-  EXPECT_EQ(check("sim/simulator.cpp", "worlds/world.hpp"), none);
+  EXPECT_EQ(check_includes("harness/commands/run.cpp", "harness/run/run.hpp"), none);
+  EXPECT_EQ(check_includes("harness/score/details.cpp", "harness/files/csv_reader.hpp"), none);
+  EXPECT_EQ(check_includes("harness/run/run.cpp", "harness/run/resume.hpp"), none);
+  EXPECT_EQ(check_includes("harness/run/run.cpp", "seif/estimator.hpp"), none);
+  EXPECT_EQ(check_includes("sim/simulator.cpp", "worlds/world.hpp"), none);
 }
 
 TEST(Floors, LetNoArrowRunUpOrAlong) {
   const Findings up = {"harness/files/a.cpp:1: harness/run/run.hpp is not on a lower floor"};
-  EXPECT_EQ(check("harness/files/a.cpp", "harness/run/run.hpp"), up);
+  EXPECT_EQ(check_includes("harness/files/a.cpp", "harness/run/run.hpp"), up);
   const Findings along = {"harness/film/a.cpp:1: harness/stress/stress.hpp is not on a lower floor"};
-  EXPECT_EQ(check("harness/film/a.cpp", "harness/stress/stress.hpp"), along);
+  EXPECT_EQ(check_includes("harness/film/a.cpp", "harness/stress/stress.hpp"), along);
   const Findings top = {"harness/film/a.cpp:1: harness/stress.hpp is not on a lower floor"};
-  EXPECT_EQ(check("harness/film/a.cpp", "harness/stress.hpp"), top);
+  EXPECT_EQ(check_includes("harness/film/a.cpp", "harness/stress.hpp"), top);
 }
 
 TEST(Floors, HoldEveryFileOfHarness) {
   const Findings flat = {"harness/a.cpp:1: is in no sub-room of harness/"};
-  EXPECT_EQ(check("harness/a.cpp", "harness/run/run.hpp"), flat);
+  EXPECT_EQ(check_includes("harness/a.cpp", "harness/run/run.hpp"), flat);
   const Findings unknown = {"harness/attic/a.cpp:1: is in no sub-room of harness/"};
-  EXPECT_EQ(check("harness/attic/a.cpp", "harness/run/run.hpp"), unknown);
+  EXPECT_EQ(check_includes("harness/attic/a.cpp", "harness/run/run.hpp"), unknown);
 }
 
 TEST(Floors, LeaveTheTopOfHarnessNearlyEmpty) {

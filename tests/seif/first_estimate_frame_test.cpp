@@ -28,7 +28,7 @@ std::vector<FirstEstimate> landmarks_moved_by(const Pose2& T_first_mean, int cou
   return landmarks;
 }
 
-void expect_equal(const Pose2& a, const Pose2& b) {
+void expect_equal_poses(const Pose2& a, const Pose2& b) {
   EXPECT_NEAR(a.x, b.x, 1e-12);
   EXPECT_NEAR(a.y, b.y, 1e-12);
   EXPECT_NEAR(wrap_angle(a.theta - b.theta), 0.0, 1e-12);
@@ -39,15 +39,15 @@ TEST(FirstEstimateFrame, IsTheRigidMotionFromMeansToFirstEstimates) {
   const Pose2 truth = turned_and_moved * pose;
   const FramedPose framed =
       pose_among(landmarks, pose, {truth.x + 0.1, truth.y - 0.1, truth.theta}, sighting_sd);
-  expect_equal(framed.pose, truth);
+  expect_equal_poses(framed.pose, truth);
   EXPECT_FALSE(framed.another_frame);
 }
 
 TEST(FirstEstimateFrame, IsCarriedAlongWhereLessThanTwoLandmarksTellIt) {
   std::vector<FirstEstimate> landmarks = landmarks_moved_by(turned_and_moved, 1, 0.0);
   const Pose2 carried{41.0, -6.0, 0.2};
-  expect_equal(pose_among(landmarks, pose, carried, sighting_sd).pose, carried);
-  expect_equal(pose_among({}, pose, carried, sighting_sd).pose, carried);
+  expect_equal_poses(pose_among(landmarks, pose, carried, sighting_sd).pose, carried);
+  expect_equal_poses(pose_among({}, pose, carried, sighting_sd).pose, carried);
 }
 
 TEST(FirstEstimateFrame, IsThatOfTheMostOnceALoopIsClosed) {
@@ -58,7 +58,7 @@ TEST(FirstEstimateFrame, IsThatOfTheMostOnceALoopIsClosed) {
       landmarks.push_back(landmark);
     }
     const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose, sighting_sd);
-    expect_equal(framed.pose, (of_the_beginning > 4 ? beginning : turned_and_moved) * pose);
+    expect_equal_poses(framed.pose, (of_the_beginning > 4 ? beginning : turned_and_moved) * pose);
     EXPECT_EQ(framed.another_frame, of_the_beginning > 4);
   }
 }
@@ -69,7 +69,7 @@ TEST(FirstEstimateFrame, IsKeptWhereTheOthersDoNotAgree) {
     landmarks.push_back({.mean = {3.0 + k, 4.0}, .first = {100.0 * k * k, -30.0 * (k % 2)}});
   }
   const FramedPose framed = pose_among(landmarks, pose, turned_and_moved * pose, sighting_sd);
-  expect_equal(framed.pose, turned_and_moved * pose);
+  expect_equal_poses(framed.pose, turned_and_moved * pose);
   EXPECT_FALSE(framed.another_frame);
 }
 

@@ -15,7 +15,7 @@ namespace seif {
 namespace {
 
 const StageDone nobody = [](Stage) {};
-constexpr int landmarks = 40;
+constexpr int landmark_count = 40;
 
 /// A drive round a circle of 5 m with landmarks on both sides, of which those within 4 m are seen.
 class Round {
@@ -36,7 +36,7 @@ class Round {
   Scan scan() {
     Scan scan;
     scan.t = t_;
-    for (int i = 0; i < landmarks; ++i) {
+    for (int i = 0; i < landmark_count; ++i) {
       const Eigen::Vector2d z = predict_observation(pose_, {}, place(i)).z;
       if (z(0) > 4.0) continue;
       Observation seen{i, z(0) + 0.05 * normal_(random_), wrap_angle(z(1) + 0.01 * normal_(random_)), {}};
@@ -48,7 +48,7 @@ class Round {
 
  private:
   static Eigen::Vector2d place(int i) {
-    const double angle = 2.0 * std::numbers::pi * i / landmarks;
+    const double angle = 2.0 * std::numbers::pi * i / landmark_count;
     const double radius = i % 2 == 0 ? 3.5 : 6.5;
     return {radius * std::sin(angle), 5.0 - radius * std::cos(angle)};
   }

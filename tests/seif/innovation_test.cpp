@@ -12,7 +12,7 @@
 namespace seif {
 namespace {
 
-const StageDone nobody = [](Stage) {};
+const StageDone no_listener = [](Stage) {};
 
 struct Innovation {
   double squared = 0.0;  // v' S^-1 v
@@ -75,7 +75,7 @@ TEST_P(InnovationOf, AScanIsThatOfItsDefinition) {
     path.advance();
     filter->motion_update(path.odometry());
     const Innovation expected = by_definition(*filter, path.scan());
-    filter->measurement_update(path.scan(), nobody);
+    filter->measurement_update(path.scan(), no_listener);
     const Counts counts = filter->counts();
     ASSERT_TRUE(counts.innovation);
     ASSERT_EQ(counts.innovation_degrees, expected.degrees);
@@ -94,10 +94,10 @@ TEST_P(InnovationOf, AScanWithoutKnownLandmarksIsZero) {
   for (int i = 0; i < 5; ++i) {
     path.advance();
     filter->motion_update(path.odometry());
-    filter->measurement_update(path.scan(), nobody);
+    filter->measurement_update(path.scan(), no_listener);
   }
   EXPECT_GT(*filter->counts().innovation, 0.0);
-  filter->measurement_update({path.odometry().t, {}}, nobody);
+  filter->measurement_update({path.odometry().t, {}}, no_listener);
   EXPECT_EQ(filter->counts().innovation, 0.0);
   EXPECT_EQ(filter->counts().innovation_degrees, 0);
 }

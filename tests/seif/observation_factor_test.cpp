@@ -19,7 +19,7 @@ using test::relative;
 using test::start;
 using test::T_robot_sensor;
 
-constexpr double rounding = 1e-11;  // relative
+constexpr double factor_rounding = 1e-11;  // relative
 
 class ObservationFactors : public testing::TestWithParam<unsigned> {
  protected:
@@ -59,8 +59,8 @@ TEST_P(ObservationFactors, WhatIsAddedCanBeTakenOutAgain) {
   for (const ObservationFactor& factor : all) add(state, factor);
   EXPECT_GT(relative(oracle::symmetric(state.full_Omega()), Omega), 1e-3);
   for (const ObservationFactor& factor : all) subtract(state, factor);
-  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), Omega), rounding);
-  EXPECT_LT(relative(state.full_r(), r), rounding);
+  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), Omega), factor_rounding);
+  EXPECT_LT(relative(state.full_r(), r), factor_rounding);
 }
 
 TEST_P(ObservationFactors, AlsoWhenTheMeanHasMovedBetween) {
@@ -70,9 +70,9 @@ TEST_P(ObservationFactors, AlsoWhenTheMeanHasMovedBetween) {
   move_the_mean();
   for (const ObservationFactor& factor : all) subtract(state, factor);
   EXPECT_GT((state.full_mu() - before.mu).norm(), 1.0);
-  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), before.H), rounding);
+  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), before.H), factor_rounding);
   const Eigen::VectorXd r = before.b - before.H * state.full_mu();  // without the factors, at this mean
-  EXPECT_LT(relative(state.full_r(), r), rounding);
+  EXPECT_LT(relative(state.full_r(), r), factor_rounding);
 }
 
 TEST_P(ObservationFactors, EqualTheDenseMeasurementUpdate) {
@@ -80,8 +80,8 @@ TEST_P(ObservationFactors, EqualTheDenseMeasurementUpdate) {
   for (const ObservationFactor& factor : factors()) add(state, factor);
   for (const Observation& z : scan) oracle::measurement_update(belief, slot_of(z), z, T_robot_sensor);
   const DenseBelief now = oracle::dense(state);
-  EXPECT_LT(relative(now.H, belief.H), rounding);
-  EXPECT_LT(relative(now.b, belief.b), rounding);
+  EXPECT_LT(relative(now.H, belief.H), factor_rounding);
+  EXPECT_LT(relative(now.b, belief.b), factor_rounding);
   for (const Observation& z : scan) EXPECT_GE(state.position(slot_of(z)), 0);
 }
 
@@ -102,8 +102,8 @@ TEST_P(ObservationFactors, RelinearisedEqualOnesThatWereLinearisedThereFromTheSt
   }
   for (const Observation& z : scan) add(from_start, linearise(from_start, slot_of(z), z, T_robot_sensor));
   EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), oracle::symmetric(from_start.full_Omega())),
-            rounding);
-  EXPECT_LT(relative(state.full_r(), from_start.full_r()), rounding);
+            factor_rounding);
+  EXPECT_LT(relative(state.full_r(), from_start.full_r()), factor_rounding);
 }
 
 TEST_P(ObservationFactors, TheResidualIsTheInnovationThatALinearSensorWouldHave) {

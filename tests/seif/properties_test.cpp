@@ -17,7 +17,7 @@ namespace {
 using test::ignore;
 using test::RingDrive;
 
-constexpr double rounding = 1e-10;  // relative to metres and radians, after some hundred updates
+constexpr double property_rounding = 1e-10;  // relative to metres and radians, after some hundred updates
 
 /// Turns vectors as T_to_from does: of the state [x y theta] (3 x 3).
 Eigen::Matrix3d rotation_of_pose(const Pose2& T_to_from) {
@@ -65,9 +65,9 @@ class EveryFilter : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(All, EveryFilter, testing::ValuesIn(test::every_filter()), test::name_of);
 
 void expect_equal(const Pose2& a, const Pose2& b) {
-  EXPECT_NEAR(a.x, b.x, rounding);
-  EXPECT_NEAR(a.y, b.y, rounding);
-  EXPECT_NEAR(wrap_angle(a.theta - b.theta), 0.0, rounding);
+  EXPECT_NEAR(a.x, b.x, property_rounding);
+  EXPECT_NEAR(a.y, b.y, property_rounding);
+  EXPECT_NEAR(wrap_angle(a.theta - b.theta), 0.0, property_rounding);
 }
 
 TEST_P(EveryFilter, ARigidMotionOfTheWorldFrameMovesPoseMapAndCovariancesAndNothingElse) {
@@ -92,13 +92,13 @@ TEST_P(EveryFilter, ARigidMotionOfTheWorldFrameMovesPoseMapAndCovariancesAndNoth
   ASSERT_EQ(map_there.size(), map_here.size());
   const Eigen::Matrix3d G = rotation_of_pose(T_there_here);
   const auto relative = [](const auto& a, const auto& b) { return (a - b).norm() / b.norm(); };
-  EXPECT_LT(relative(marginals_there->pose, G * marginals_here->pose * G.transpose()), rounding);
+  EXPECT_LT(relative(marginals_there->pose, G * marginals_here->pose * G.transpose()), property_rounding);
   const Eigen::Matrix2d R = G.topLeftCorner<2, 2>();
   for (std::size_t i = 0; i < map_here.size(); ++i) {
     EXPECT_EQ(map_there[i].landmark, map_here[i].landmark);
-    EXPECT_LT((map_there[i].mean - T_there_here * map_here[i].mean).norm(), rounding);
+    EXPECT_LT((map_there[i].mean - T_there_here * map_here[i].mean).norm(), property_rounding);
     const Eigen::Matrix2d turned = R * marginals_here->landmarks[i] * R.transpose();
-    EXPECT_LT(relative(marginals_there->landmarks[i], turned), rounding);
+    EXPECT_LT(relative(marginals_there->landmarks[i], turned), property_rounding);
   }
 }
 

@@ -21,9 +21,9 @@ using oracle::DenseBelief;
 using oracle::RandomDrive;
 using test::relative;
 
-constexpr double rounding = 1e-12;  // relative
-constexpr double inverses = 1e-8;   // relative, where a conditioned matrix is inverted on the way
-constexpr double visible = 1e-3;    // relative; what is off by more is no rounding
+constexpr double formula_rounding = 1e-12;  // relative
+constexpr double inverses = 1e-8;           // relative, where a conditioned matrix is inverted on the way
+constexpr double visible = 1e-3;            // relative; what is off by more is no rounding
 
 /// Full, and well enough conditioned that its inverse costs no digits.
 Eigen::Matrix3d any_covariance(RandomDrive& random) {
@@ -109,8 +109,8 @@ TEST_P(Report, Equation35HasTheSignOfItsLastTermWrong) {
   const Eigen::Matrix3d noise = any_covariance(random);
   const DenseBelief expected = by_covariance(before, added, noise);
   const DenseBelief mended = lemma_2(before, added, noise, LastTerm::mended);
-  EXPECT_LT(relative(mended.H, expected.H), rounding);
-  EXPECT_LT(relative(mended.b, expected.b), rounding);
+  EXPECT_LT(relative(mended.H, expected.H), formula_rounding);
+  EXPECT_LT(relative(mended.b, expected.b), formula_rounding);
   EXPECT_GT(relative(lemma_2(before, added, noise, LastTerm::as_printed).b, expected.b), visible);
 }
 
@@ -121,9 +121,9 @@ TEST_P(Report, Lemma2EqualsOurMotionUpdateForATurnOnTheSpot) {
   const DenseBelief by_lemma = lemma_2(before, mu_hat(before, u), U(before, u), LastTerm::mended);
   motion_update(state, u);
   const DenseBelief ours = oracle::dense(state);
-  EXPECT_LT(relative(ours.H, by_lemma.H), rounding);
-  EXPECT_LT(relative(ours.b, by_lemma.b), rounding);
-  EXPECT_LT(relative(ours.mu, by_lemma.mu), rounding);
+  EXPECT_LT(relative(ours.H, by_lemma.H), formula_rounding);
+  EXPECT_LT(relative(ours.b, by_lemma.b), formula_rounding);
+  EXPECT_LT(relative(ours.mu, by_lemma.mu), formula_rounding);
 }
 
 TEST_P(Report, Lemma2ChangesTheBlocksOfRobotAndActiveLandmarksAlone) {
@@ -185,7 +185,7 @@ TEST_P(Report, Lemma3InvertsAMatrixThatIsSingularForEveryMotionOfThePlane) {
   // Of a regular A the lemma is right.
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d A = 10.0 * any_covariance(random) + I;
-  EXPECT_LT(relative(I - (I + A.inverse()).inverse(), (I + A).inverse()), rounding);
+  EXPECT_LT(relative(I - (I + A.inverse()).inverse(), (I + A).inverse()), formula_rounding);
 }
 
 /// SEIF_motion_update of Probabilistic Robotics, (12.12)-(12.15), with F_x the report's S_x'.
@@ -215,9 +215,9 @@ TEST_P(Report, TheBooksMotionUpdateEqualsOurs) {
     const DenseBelief by_book = book_motion_update(oracle::dense(state), u);
     motion_update(state, u);
     const DenseBelief ours = oracle::dense(state);
-    EXPECT_LT(relative(ours.H, by_book.H), rounding);
-    EXPECT_LT(relative(ours.b, by_book.b), rounding);
-    EXPECT_LT(relative(ours.mu, by_book.mu), rounding);
+    EXPECT_LT(relative(ours.H, by_book.H), formula_rounding);
+    EXPECT_LT(relative(ours.b, by_book.b), formula_rounding);
+    EXPECT_LT(relative(ours.mu, by_book.mu), formula_rounding);
   }
 }
 

@@ -26,13 +26,13 @@ using test::relative;
 using test::start;
 using test::T_robot_sensor;
 
-constexpr double rounding = 1e-10;  // relative, after some tens of updates of conditioned matrices
+constexpr double step_rounding = 1e-10;  // relative, after some tens of updates of conditioned matrices
 
 void expect_equal(const InformationState& state, const DenseBelief& belief) {
   const DenseBelief now = oracle::dense(state);
-  EXPECT_LT(relative(now.H, belief.H), rounding);
-  EXPECT_LT(relative(now.b, belief.b), rounding);
-  EXPECT_LT(relative(now.mu, belief.mu), rounding);
+  EXPECT_LT(relative(now.H, belief.H), step_rounding);
+  EXPECT_LT(relative(now.b, belief.b), step_rounding);
+  EXPECT_LT(relative(now.mu, belief.mu), step_rounding);
 }
 
 class SeifSteps : public testing::TestWithParam<unsigned> {
@@ -99,7 +99,7 @@ TEST_P(SeifSteps, SparsificationMatchesEquation50) {
   choose_to_drop(state, DropOrder::weakest_link, 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::report, dropped));
   EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), oracle::sparsified(before, H0, dropped)),
-            rounding);
+            step_rounding);
 }
 
 TEST_P(SeifSteps, ModifiedSparsificationMatchesEquation50WithTheMarginal) {

@@ -13,7 +13,7 @@
 namespace sensors {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr seif::LandmarkId first_false_id = 1000;
 
 const LineOfSight always = [](const Eigen::Vector2d&, seif::LandmarkId) { return true; };

@@ -9,7 +9,7 @@
 namespace sensors {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double track = 0.4;
 
 // Straight, almost straight (on either side of where sinc changes to its series), arcs, backwards, on the

@@ -13,7 +13,7 @@
 namespace sensors {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 WheelEncoderOptions exact() {
   WheelEncoderOptions options;

@@ -13,7 +13,7 @@
 namespace sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 worlds::World kinematic_world() {
   worlds::World world;

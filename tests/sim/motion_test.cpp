@@ -11,7 +11,7 @@
 namespace sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Spin {
   double true_turn = 0.0;  // [rad] unwrapped

@@ -10,7 +10,7 @@
 namespace sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 class Placing : public testing::TestWithParam<worlds::Engine> {
  protected:

@@ -13,7 +13,7 @@
 namespace sim {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Bullet's rays meet a cylinder within 0.07 mm of where they should: closer calls than this are not tested.
 constexpr double ray_accuracy = 1e-3;  // [m]

@@ -12,7 +12,7 @@ namespace {
 
 using test::text_of;
 
-std::string problems_of(std::string_view text) {
+std::string syntax_problems_of(std::string_view text) {
   std::vector<Problem> problems;
   const std::optional<Node> node = parse_document(text, "f.yaml", problems);
   EXPECT_EQ(node.has_value(), problems.empty());
@@ -36,41 +36,41 @@ TEST(ParseDocument, KeepsOrderTextAndPlace) {
 }
 
 TEST(ParseDocument, RefusesEachDuplicateKeyAtItsPlace) {
-  EXPECT_EQ(problems_of("a: 1\nb: {c: 1, c: 2}\na: 2\n"),
+  EXPECT_EQ(syntax_problems_of("a: 1\nb: {c: 1, c: 2}\na: 2\n"),
             "f.yaml:2:11: the key 'c' stands here twice: first in line 2\n"
             "f.yaml:3:1: the key 'a' stands here twice: first in line 1\n");
 }
 
 TEST(ParseDocument, SaysWhereTheSyntaxBreaks) {
-  EXPECT_EQ(problems_of("a: 1\nb: [1, 2\nc: 3\n").substr(0, 9), "f.yaml:3:");
-  EXPECT_NE(problems_of("a: b: c\n"), "");
-  EXPECT_NE(problems_of("\tx: 1\n"), "");
-  EXPECT_NE(problems_of("a: *nobody\n"), "");
+  EXPECT_EQ(syntax_problems_of("a: 1\nb: [1, 2\nc: 3\n").substr(0, 9), "f.yaml:3:");
+  EXPECT_NE(syntax_problems_of("a: b: c\n"), "");
+  EXPECT_NE(syntax_problems_of("\tx: 1\n"), "");
+  EXPECT_NE(syntax_problems_of("a: *nobody\n"), "");
 }
 
 TEST(ParseDocument, RefusesWhatIsNotOneDocument) {
-  EXPECT_NE(problems_of("").find("empty"), std::string::npos);
-  EXPECT_NE(problems_of("# a comment alone\n").find("empty"), std::string::npos);
-  EXPECT_NE(problems_of("a: 1\n---\nb: 2\n").find("one document"), std::string::npos);
-  EXPECT_NE(problems_of("a: !!str 5\n").find("tag"), std::string::npos);
-  EXPECT_NE(problems_of("? [1, 2]\n: 3\n").find("plain word"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("").find("empty"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("# a comment alone\n").find("empty"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("a: 1\n---\nb: 2\n").find("one document"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("a: !!str 5\n").find("tag"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("? [1, 2]\n: 3\n").find("plain word"), std::string::npos);
 }
 
 TEST(ParseDocument, RefusesTextThatIsNotUtf8) {
-  EXPECT_EQ(problems_of("a: 1\nb: \xff\n"),
+  EXPECT_EQ(syntax_problems_of("a: 1\nb: \xff\n"),
             "f.yaml:2:4: the byte 0xff does not belong in a UTF-8 text file\n");
-  EXPECT_NE(problems_of("a: \xc0\xaf\n"), "");           // overlong
-  EXPECT_NE(problems_of("a: \xed\xa0\x80\n"), "");       // a surrogate
-  EXPECT_NE(problems_of("a: \xe2\x82"), "");             // cut off
-  EXPECT_NE(problems_of(std::string("a\0: 1", 6)), "");  // UTF-16 without a mark
-  EXPECT_EQ(problems_of("a: \xe2\x82\xac \xf0\x9f\x8c\xb3\n"), "");
+  EXPECT_NE(syntax_problems_of("a: \xc0\xaf\n"), "");           // overlong
+  EXPECT_NE(syntax_problems_of("a: \xed\xa0\x80\n"), "");       // a surrogate
+  EXPECT_NE(syntax_problems_of("a: \xe2\x82"), "");             // cut off
+  EXPECT_NE(syntax_problems_of(std::string("a\0: 1", 6)), "");  // UTF-16 without a mark
+  EXPECT_EQ(syntax_problems_of("a: \xe2\x82\xac \xf0\x9f\x8c\xb3\n"), "");
 }
 
 TEST(ParseDocument, GivesUpOnNestingThatIsTooDeep) {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
-  EXPECT_EQ(problems_of(nested(max_depth)), "");
-  EXPECT_NE(problems_of(nested(max_depth + 1)).find("nested"), std::string::npos);
-  EXPECT_NE(problems_of(nested(100000)).find("nested"), std::string::npos);
+  EXPECT_EQ(syntax_problems_of(nested(max_depth)), "");
+  EXPECT_NE(syntax_problems_of(nested(max_depth + 1)).find("nested"), std::string::npos);
+  EXPECT_NE(syntax_problems_of(nested(100000)).find("nested"), std::string::npos);
 }
 
 TEST(ParseDocument, GivesUpOnAliasBombs) {
@@ -79,8 +79,8 @@ TEST(ParseDocument, GivesUpOnAliasBombs) {
     bomb += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i,
                         i - 1);
   }
-  EXPECT_NE(problems_of(bomb).find("more than 1000000 values"), std::string::npos);
-  EXPECT_NE(problems_of("a: &a [*a]\n"), "");
+  EXPECT_NE(syntax_problems_of(bomb).find("more than 1000000 values"), std::string::npos);
+  EXPECT_NE(syntax_problems_of("a: &a [*a]\n"), "");
 }
 
 TEST(ParseDocument, ExpandsAliases) {

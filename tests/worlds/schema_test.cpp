@@ -124,7 +124,7 @@ const Json& schema() {
   return parsed;
 }
 
-Node parse(std::string_view text) {
+Node parse_node(std::string_view text) {
   std::vector<Problem> problems;
   return parse_document(text, "f", problems).value_or(Node{});
 }
@@ -136,7 +136,7 @@ TEST(JsonSchema, AcceptsEveryGalleryFileAndWhatItResolvesTo) {
     ASSERT_TRUE(file) << test::text_of(problems);
     EXPECT_TRUE(is_valid(schema(), to_json(*file))) << name;
     const LoadResult result = load_world(test::gallery_file(name), {}, fake_estimators(), "1.0");
-    EXPECT_TRUE(is_valid(schema(), to_json(parse(result.resolved)))) << name;
+    EXPECT_TRUE(is_valid(schema(), to_json(parse_node(result.resolved)))) << name;
   }
 }
 
@@ -152,7 +152,7 @@ void for_each_node(Node& node, const std::function<void(Node&)>& visit) {
 class BothRefuse : public testing::Test {
  protected:
   void SetUp() override {
-    root_ = parse(
+    root_ = parse_node(
         "robot: {start: {x_m: -8, y_m: -8}}\n"
         "physics: {patches: [{min_m: [0, 0], max_m: [1, 1]}]}\n"
         "landmarks: {placed: [{x_m: 1, y_m: 1}], generators: [{type: ring, count: 3}, {type: grid, cell_m: "
@@ -164,7 +164,7 @@ class BothRefuse : public testing::Test {
         "film: {estimators: [mine]}\n");
     const LoadResult result = load();
     ASSERT_TRUE(result.world) << test::text_of(result.problems);
-    root_ = parse(result.resolved);
+    root_ = parse_node(result.resolved);
   }
 
   LoadResult load() { return test::load_text(folder_, emit(root_)); }
@@ -182,7 +182,7 @@ TEST_F(BothRefuse, UnknownKeysInEveryMap) {
   for_each_node(root_, [&](Node& node) {
     if (node.kind != Node::Kind::map) return;
     const bool is_names = &node == root_.find("estimators");
-    node.entries.push_back({is_names ? "no name" : "surprise", {}, parse("{}")});
+    node.entries.push_back({is_names ? "no name" : "surprise", {}, parse_node("{}")});
     expect_both_refuse();
     node.entries.pop_back();
   });
@@ -191,7 +191,7 @@ TEST_F(BothRefuse, UnknownKeysInEveryMap) {
 TEST_F(BothRefuse, ValuesOfAnotherType) {
   for_each_node(root_, [&](Node& node) {
     const bool is_word = node.kind == Node::Kind::scalar && to_json(node).is_string();
-    Node changed = parse(is_word ? "5" : "\"word\"");
+    Node changed = parse_node(is_word ? "5" : "\"word\"");
     std::swap(node, changed);
     expect_both_refuse();
     std::swap(node, changed);
@@ -274,7 +274,7 @@ TEST(JsonSchema, AgreesWithTheLoaderOnSingleMistakes) {
   const Folder folder;
   for (const std::string& text : mistakes) {
     EXPECT_FALSE(test::load_text(folder, text).world) << text;
-    EXPECT_FALSE(is_valid(schema(), to_json(parse(text)))) << text;
+    EXPECT_FALSE(is_valid(schema(), to_json(parse_node(text)))) << text;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace harness {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 LogDescription log_of_an_8_m_sensor() {
@@ -41,8 +41,8 @@ Event odometry(double x, double variance) {
 
 TEST(Screening, LeavesOutObservationsThatAreNoneWithTheirIds) {
   Screening screening(log_of_an_8_m_sensor());
-  Event event = scan_of({seen(0, nan, 0.0), seen(1, 2.0, 0.5), seen(2, 2.0, infinity), seen(3, -1.0, 0.0),
-                         seen(4, 8.4, 0.0), seen(5, 8.6, 0.0), seen(6, 1e6, 0.0)});
+  Event event = scan_of({seen(0, not_a_number, 0.0), seen(1, 2.0, 0.5), seen(2, 2.0, infinity),
+                         seen(3, -1.0, 0.0), seen(4, 8.4, 0.0), seen(5, 8.6, 0.0), seen(6, 1e6, 0.0)});
   ASSERT_TRUE(screening.admit(event));
   const ScanEvent& scan = std::get<ScanEvent>(event);
   ASSERT_EQ(scan.scan.observations.size(), 2U);
@@ -56,14 +56,14 @@ TEST(Screening, LeavesOutObservationsThatAreNoneWithTheirIds) {
 
 TEST(Screening, AScanOfWhichNothingIsLeftIsAnEmptyScan) {
   Screening screening(log_of_an_8_m_sensor());
-  Event event = scan_of({seen(0, nan, 0.0)});
+  Event event = scan_of({seen(0, not_a_number, 0.0)});
   EXPECT_TRUE(screening.admit(event));
   EXPECT_TRUE(std::get<ScanEvent>(event).scan.observations.empty());
 }
 
 TEST(Screening, LeavesOutObservationsWithACovarianceThatIsNone) {
   Screening screening(log_of_an_8_m_sensor());
-  for (const double variance : {0.0, -1.0, nan, infinity}) {
+  for (const double variance : {0.0, -1.0, not_a_number, infinity}) {
     seif::Observation z = seen(0, 1.0, 0.0);
     z.covariance(1, 1) = variance;
     Event event = scan_of({z});
@@ -79,7 +79,7 @@ TEST(Screening, LeavesOutObservationsWithACovarianceThatIsNone) {
 
 TEST(Screening, LeavesOutOdometryThatIsNone) {
   Screening screening(log_of_an_8_m_sensor());
-  for (Event bad : {odometry(nan, 0.1), odometry(infinity, 0.1), odometry(0.1, nan)})
+  for (Event bad : {odometry(not_a_number, 0.1), odometry(infinity, 0.1), odometry(0.1, not_a_number)})
     EXPECT_FALSE(screening.admit(bad));
   EXPECT_EQ(screening.count(Rejection::odometry_not_finite), 3);
   for (Event bad : {odometry(2e4, 0.1), odometry(0.1, -0.1)}) EXPECT_FALSE(screening.admit(bad));
@@ -94,7 +94,7 @@ TEST(Screening, NamesWhatItLeftOutAndNothingElse) {
   screening.admit(good);
   EXPECT_TRUE(screening.named().empty());
   EXPECT_FALSE(screening.first_t());
-  Event bad = odometry(nan, 0.1);
+  Event bad = odometry(not_a_number, 0.1);
   screening.admit(bad);
   ASSERT_EQ(screening.named().size(), 1U);
   EXPECT_EQ(screening.named().front().first, "odometry_not_finite");

@@ -13,7 +13,7 @@
 namespace harness {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-12;
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;

@@ -12,7 +12,7 @@
 namespace harness {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-12;
 
 TEST(Alignment, FindsTheMotionThatWasApplied) {

@@ -12,7 +12,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-SweepPlan example() {
+SweepPlan example_plan() {
   return {"example", "0.1.0", "ekf", {1, 2, 7}, {{"a.b", {"4", "[1, 2]"}}, {"c", {"x", "y", "z"}}}};
 }
 
@@ -23,8 +23,8 @@ TEST(SweepAxis, CommasInsideBracketsAndQuotesSeparateNothing) {
 }
 
 TEST(ShortPaths, AreTheLastKeysWhereThoseDiffer) {
-  EXPECT_EQ(short_paths(example()), (Texts{"b", "c"}));
-  SweepPlan plan = example();
+  EXPECT_EQ(short_paths(example_plan()), (Texts{"b", "c"}));
+  SweepPlan plan = example_plan();
   plan.axes.push_back({"d.b", {"1"}});
   EXPECT_EQ(short_paths(plan), (Texts{"a.b", "c", "d.b"}));
 }
@@ -49,7 +49,7 @@ TEST(SweepAxis, SaysWhatIsWrongAndWhatWasMeant) {
 }
 
 TEST(SweepPlan, IsTheProductWithTheSeedsFastest) {
-  const SweepPlan plan = example();
+  const SweepPlan plan = example_plan();
   ASSERT_EQ(setting_count(plan), 6U);
   ASSERT_EQ(cell_count(plan), 18U);
   EXPECT_EQ(overrides_of(plan, cell_at(plan, 0)), (Texts{"a.b=4", "c=x", "seed=1"}));
@@ -62,38 +62,38 @@ TEST(SweepPlan, IsTheProductWithTheSeedsFastest) {
 }
 
 TEST(SweepPlan, WithoutAxesHasOneSetting) {
-  SweepPlan plan = example();
+  SweepPlan plan = example_plan();
   plan.axes.clear();
   EXPECT_EQ(cell_count(plan), 3U);
   EXPECT_EQ(overrides_of(plan, cell_at(plan, 1)), (Texts{"seed=2"}));
 }
 
 TEST(SweepPlan, RefusesAnAxisThatStandsTwiceAndTooManyCells) {
-  SweepPlan plan = example();
+  SweepPlan plan = example_plan();
   plan.axes.push_back({"c", {"1"}});
   EXPECT_THROW(check_plan(plan), BadInput);
-  plan = example();
+  plan = example_plan();
   for (std::size_t axis = 0; axis < 70; ++axis) plan.axes.push_back({std::string(axis + 1, 'd'), {"1", "2"}});
   EXPECT_THROW(check_plan(plan), BadInput) << "although the product wraps round";
 }
 
 TEST(SweepPlan, ComesBackFromItsFile) {
-  EXPECT_EQ(plan_from_json(to_json(example()), "sweep.json"), example());
+  EXPECT_EQ(plan_from_json(to_json(example_plan()), "sweep.json"), example_plan());
   for (const char* text : {"", "[]", "{\"name\": 3}"})
     EXPECT_THROW(plan_from_json(text, "sweep.json"), BadInput) << text;
 }
 
 TEST(SweepPlan, TellsWhatOfAnotherIsDifferent) {
-  SweepPlan other = example();
+  SweepPlan other = example_plan();
   other.baseline = "seif";
-  EXPECT_EQ(difference_between(other, example()), "its baseline is seif, and not ekf");
+  EXPECT_EQ(difference_between(other, example_plan()), "its baseline is seif, and not ekf");
   other.axes[0].values = {"4"};
-  EXPECT_EQ(difference_between(other, example()),
+  EXPECT_EQ(difference_between(other, example_plan()),
             "its varied values are a.b=4 c=x,y,z, and not a.b=4,[1, 2] c=x,y,z");
   other.seeds = {1, 2};
-  EXPECT_EQ(difference_between(other, example()), "its seeds are 1..2, and not 1..2,7");
+  EXPECT_EQ(difference_between(other, example_plan()), "its seeds are 1..2, and not 1..2,7");
   other.version = "0.2.0";
-  EXPECT_EQ(difference_between(other, example()), "its program was 0.2.0, and not 0.1.0");
+  EXPECT_EQ(difference_between(other, example_plan()), "its program was 0.2.0, and not 0.1.0");
 }
 
 TEST(Seeds, TheirTextMeansThem) {

@@ -16,7 +16,7 @@
 namespace seif {
 namespace {
 
-constexpr double rounding = 1e-10;  // relative
+constexpr double part_rounding = 1e-10;  // relative
 
 Eigen::MatrixXd positive_definite(int n, unsigned seed) {
   std::mt19937_64 random(seed);
@@ -113,7 +113,7 @@ TEST(Front, LeavesTheSchurComplement) {
   ASSERT_TRUE(front.condense([](int slot, int) { return slot % 3 != 0; }, out));
   EXPECT_EQ(boundary_of(out), (std::vector<int>{0, 3, 6}));
   const Eigen::MatrixXd expected = schur_complement(M, {0, 3, 6});
-  EXPECT_LT((unpacked(out) - expected).norm(), rounding * expected.norm());
+  EXPECT_LT((unpacked(out) - expected).norm(), part_rounding * expected.norm());
 }
 
 TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
@@ -149,7 +149,7 @@ TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
     }
   }
   const Eigen::MatrixXd expected = schur_complement(M, boundary_of(out));
-  EXPECT_LT((unpacked(out) - expected).norm(), rounding * expected.norm());
+  EXPECT_LT((unpacked(out) - expected).norm(), part_rounding * expected.norm());
 }
 
 TEST(Front, RefusesWhatIsNotPositiveDefinite) {
@@ -177,7 +177,7 @@ TEST(Front, APartOfOmegaHoldsWhatItHoldsCondensed) {
   const Eigen::MatrixXd M = positive_definite(8, 6);
   Condensed part = part_of(M, {4, 1, 3, 2});
   const Condensed whole = condensed(front, part);
-  EXPECT_LT((unpacked(whole) - M).norm(), rounding * M.norm());
+  EXPECT_LT((unpacked(whole) - M).norm(), part_rounding * M.norm());
   EXPECT_EQ(part.blocks(), whole.blocks());
 
   part.s.assign(8, 0.5);
@@ -185,7 +185,7 @@ TEST(Front, APartOfOmegaHoldsWhatItHoldsCondensed) {
   Eigen::VectorXd r(8);
   part.residual(d, r);
   const Eigen::VectorXd expected = Eigen::VectorXd::Constant(8, 0.5) - M * d;
-  EXPECT_LT((r - expected).norm(), rounding * expected.norm());
+  EXPECT_LT((r - expected).norm(), part_rounding * expected.norm());
 }
 
 // Whole columns are summed for condensed parts, blocks for others.
@@ -207,7 +207,7 @@ TEST(Front, PartsAreTiedInEitherForm) {
   const Condensed by_columns = tied(whole);
   ASSERT_EQ(by_blocks.S.size(), by_columns.S.size());
   for (std::size_t i = 0; i < by_blocks.S.size(); ++i)
-    EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], rounding * M.norm());
+    EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], part_rounding * M.norm());
 }
 
 // Four landmarks of which three move as one, two of these and then all three in turn.
@@ -242,7 +242,7 @@ TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
   ASSERT_EQ(all.b, 3);
   Eigen::Matrix3d S;
   S << all.S[0], all.S[1], all.S[2], all.S[1], all.S[3], all.S[4], all.S[2], all.S[4], all.S[5];
-  EXPECT_LT((S - expected).norm(), rounding * expected.norm());
+  EXPECT_LT((S - expected).norm(), part_rounding * expected.norm());
 
   const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
   front.begin_residual(pair);
@@ -255,7 +255,7 @@ TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
   const Eigen::Vector3d s = r_tied.head<3>() - tied.topRightCorner<3, 2>() *
                                                    tied.bottomRightCorner<2, 2>().inverse() *
                                                    r_tied.tail<2>();
-  EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(all.s.data()) - s).norm(), rounding * s.norm());
+  EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(all.s.data()) - s).norm(), part_rounding * s.norm());
 }
 
 /// A zone of eight landmarks that a front has left behind.
@@ -296,7 +296,7 @@ TEST(HotZone, LandmarksChangeSidesInAnyOrder) {
     EXPECT_EQ(z.zone.is_active(a), std::ranges::find(active, a) != active.end());
   }
   const Eigen::MatrixXd expected = schur_complement(z.M, active);
-  EXPECT_LT((z.F(active) - expected).norm(), rounding * expected.norm());
+  EXPECT_LT((z.F(active) - expected).norm(), part_rounding * expected.norm());
 }
 
 TEST(HotZone, TheEliminatedFollowToWhereNothingPullsAtThem) {
@@ -309,7 +309,7 @@ TEST(HotZone, TheEliminatedFollowToWhereNothingPullsAtThem) {
   Eigen::VectorXd d(16);
   for (int a = 0; a < 8; ++a) d.segment<2>(2 * a) = z.zone.mean(a);
   const Eigen::VectorXd r = -z.M * d;
-  for (const int a : eliminated) EXPECT_LT(r.segment<2>(2 * a).norm(), rounding * z.M.norm());
+  for (const int a : eliminated) EXPECT_LT(r.segment<2>(2 * a).norm(), part_rounding * z.M.norm());
   EXPECT_EQ(z.zone.mean(2), Eigen::Vector2d(0.2, 1.0));
 }
 

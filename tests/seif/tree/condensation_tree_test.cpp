@@ -284,7 +284,7 @@ TEST(CondensationTree, RandomEpisodesAreExact) {
 /// Groups so soon and so coarse that even these small worlds are full of them.
 constexpr CondensationOptions grouped{
     .most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5, .most_blocks = 0};
-constexpr double rounding = 1e-7;  // of r, where one observation more changes it by about 1e3
+constexpr double residual_rounding = 1e-7;  // of r, where one observation more changes it by about 1e3
 
 /// Of all rows, or of those of the window.
 double largest(const Eigen::VectorXd& r) { return r.cwiseAbs().maxCoeff(); }
@@ -302,15 +302,15 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
       drive.advance();
       twins.update(drive.odometry(), drive.scan());
       ASSERT_EQ(twins.tree.broken_invariant(twins.state), std::nullopt) << "update " << k;
-      ASSERT_LT(largest(twins.exact.r()), rounding) << "update " << k;
+      ASSERT_LT(largest(twins.exact.r()), residual_rounding) << "update " << k;
     }
     most_left[seed % 2] = std::max(most_left[seed % 2], largest(twins.exact.full_r()));
     ASSERT_TRUE(twins.tree.solve_all(twins.state));
     twins.follow();
-    EXPECT_LT(largest(twins.exact.full_r()), rounding);
+    EXPECT_LT(largest(twins.exact.full_r()), residual_rounding);
   }
-  EXPECT_GT(most_left[1], 1e4 * rounding);  // or there were no groups
-  EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * rounding);
+  EXPECT_GT(most_left[1], 1e4 * residual_rounding);  // or there were no groups
+  EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * residual_rounding);
 }
 
 TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {

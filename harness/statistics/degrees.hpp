@@ -1,0 +1,10 @@
+// Degrees, for people to read: everything else is in radians.
+#pragma once
+
+#include <numbers>
+
+namespace harness {
+
+inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi;  // [deg/rad]
+
+}  // namespace harness
