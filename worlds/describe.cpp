@@ -15,17 +15,17 @@ namespace worlds {
 namespace {
 
 // Limits that keep a slip of the finger from asking for more than a machine has.
-constexpr double largest_height = 1e3;     // [m]
-constexpr double smallest_radius = 1e-3;   // [m] of a landmark
-constexpr double largest_radius = 100;     // [m] of a landmark
-constexpr double most_landmarks = 1e7;     // [-] of one generator
-constexpr double most_clusters = 1e5;      // [-]
-constexpr double highest_step_rate = 1e4;  // [Hz]
-constexpr double most_tries = 1e6;         // [-]
-constexpr double smallest_film = 64;       // [px]
-constexpr double largest_film = 7680;      // [px]
-constexpr double highest_film_rate = 240;  // [1/s]
-constexpr std::size_t most_filmed = 2;     // [-] estimators side by side
+constexpr double largest_height = 1e3;             // [m]
+constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
+constexpr double largest_landmark_radius = 100;    // [m] of a landmark
+constexpr double most_landmarks = 1e7;             // [-] of one generator
+constexpr double most_clusters = 1e5;              // [-]
+constexpr double highest_step_rate = 1e4;          // [Hz]
+constexpr double most_tries = 1e6;                 // [-]
+constexpr double smallest_film = 64;               // [px]
+constexpr double largest_film = 7680;              // [px]
+constexpr double highest_film_rate = 240;          // [1/s]
+constexpr std::size_t most_filmed = 2;             // [-] estimators side by side
 
 constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
                                                         "serpentine", "explore",   "commands"};
@@ -98,7 +98,8 @@ void describe_physics(Fields& fields, Physics& physics) {
 void describe_landmark(Fields& fields, Landmark& landmark) {
   fields.number("x_m", landmark.position.x(), coordinate(), "east", Need::required);
   fields.number("y_m", landmark.position.y(), coordinate(), "north", Need::required);
-  fields.number("radius_m", landmark.radius, between(smallest_radius, largest_radius), "radius");
+  fields.number("radius_m", landmark.radius, between(smallest_landmark_radius, largest_landmark_radius),
+                "radius");
 }
 
 void describe_region(Fields& fields, Generator& generator, const Eigen::Vector2d& ground_size) {
@@ -183,7 +184,7 @@ void describe_generator(Fields& fields, Generator& generator, const Eigen::Vecto
   std::string pattern;
   fields.variant("type", pattern, generator_cases(generator, ground_size), "pattern", Need::required);
   generator.pattern = enum_of<Pattern>(pattern_names, pattern);
-  fields.number("radius_m", generator.radius, between(smallest_radius, largest_radius),
+  fields.number("radius_m", generator.radius, between(smallest_landmark_radius, largest_landmark_radius),
                 "radius of each landmark");
   fields.integer("max_tries", generator.max_tries, between(1, most_tries), "tries to place each landmark");
   fields.section("clear_m", "how far the surface of a landmark stays from other things", [&](Fields& inner) {

@@ -23,8 +23,8 @@ using test::relative;
 using test::T_robot_sensor;
 
 /// The heading is hardly known, so that what would be learned of it shows.
-const PoseEstimate start{.mean = {0.1, -0.2, 0.3},
-                         .covariance = Eigen::Vector3d(0.01, 0.02, 0.1).asDiagonal().toDenseMatrix()};
+const PoseEstimate vague_start{.mean = {0.1, -0.2, 0.3},
+                               .covariance = Eigen::Vector3d(0.01, 0.02, 0.1).asDiagonal().toDenseMatrix()};
 
 /// A robot on a circle of 2 m within a circle of ten landmarks, of which it sees those within 4 m.
 class World {
@@ -51,7 +51,7 @@ class World {
   }
 
  private:
-  Pose2 truth_ = start.mean;
+  Pose2 truth_ = vague_start.mean;
   RandomDrive random_;
 };
 
@@ -81,8 +81,8 @@ void take_in(InformationState& state, const std::vector<Observation>& scan) {
 /// The same filter written down densely, with covariances and an exact mean, so that xi = Omega mu.
 struct DenseFirstEstimates {
   int settled_after;
-  Eigen::MatrixXd Omega = start.covariance.inverse();
-  Eigen::VectorXd mu = Eigen::Vector3d(start.mean.x, start.mean.y, start.mean.theta);
+  Eigen::MatrixXd Omega = vague_start.covariance.inverse();
+  Eigen::VectorXd mu = Eigen::Vector3d(vague_start.mean.x, vague_start.mean.y, vague_start.mean.theta);
   Eigen::VectorXd at = mu;     // where the Jacobians are taken: predicted pose, first estimates
   std::vector<int> ids = {};   // by slot
   std::vector<int> seen = {};  // scans, by slot
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(SettledAfter, FirstEstimates, testing::Values(1, 3));
 
 TEST_P(FirstEstimates, EqualTheRuleWrittenDownDensely) {
   World world(7);
-  InformationState state(start);
+  InformationState state(vague_start);
   state.use_first_estimates(GetParam());
   DenseFirstEstimates dense{.settled_after = GetParam()};
   for (int k = 0; k < 30; ++k) {
@@ -208,7 +208,7 @@ TEST_P(FirstEstimates, EqualTheRuleWrittenDownDensely) {
 
 InformationState driven(unsigned seed, int steps, int first_estimates) {
   World world(seed);
-  InformationState state(start);
+  InformationState state(vague_start);
   if (first_estimates > 0) state.use_first_estimates(first_estimates);
   for (int k = 0; k < steps; ++k) {
     motion_update(state, world.advance());
@@ -243,9 +243,10 @@ Eigen::MatrixXd rigid_modes(const Eigen::VectorXd& at) {
 double gained(const InformationState& state) {
   const Eigen::VectorXd at = linearisation_points(state);
   const Eigen::MatrixXd P = rigid_modes(at);
-  const Eigen::MatrixXd P_start = rigid_modes(Eigen::Vector3d(start.mean.x, start.mean.y, start.mean.theta));
+  const Eigen::MatrixXd P_start =
+      rigid_modes(Eigen::Vector3d(vague_start.mean.x, vague_start.mean.y, vague_start.mean.theta));
   const Eigen::Matrix3d now = P.transpose() * oracle::symmetric(state.full_Omega()) * P;
-  const Eigen::Matrix3d at_start = P_start.transpose() * start.covariance.inverse() * P_start;
+  const Eigen::Matrix3d at_start = P_start.transpose() * vague_start.covariance.inverse() * P_start;
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(now, at_start).eigenvalues().maxCoeff();
 }
 
@@ -260,12 +261,12 @@ TEST(FirstEstimates, LearnNothingOfPlaceAndHeadingOfTheMapWhereJacobiansAtTheMea
     for (const int settled_after : {1, 5}) {
       const InformationState first_estimates = driven(seed, 60, settled_after);
       EXPECT_LT(gained(first_estimates), 1.0 + 1e-8);
-      EXPECT_GT(heading_variance(first_estimates), start.covariance(2, 2));
+      EXPECT_GT(heading_variance(first_estimates), vague_start.covariance(2, 2));
     }
 
     const InformationState at_the_mean = driven(seed, 60, 0);
     EXPECT_GT(gained(at_the_mean), 1.5);
-    EXPECT_LT(heading_variance(at_the_mean), 0.9 * start.covariance(2, 2));
+    EXPECT_LT(heading_variance(at_the_mean), 0.9 * vague_start.covariance(2, 2));
   }
 }
 
