@@ -13,7 +13,7 @@ namespace harness {
 namespace {
 
 using std::numbers::pi;
-constexpr double rounding = 1e-12;
+constexpr double score_rounding = 1e-12;
 
 TEST(Alignment, FindsTheMotionThatWasApplied) {
   const seif::Pose2 T_to_from{3.0, -2.0, 2.5};
@@ -22,9 +22,9 @@ TEST(Alignment, FindsTheMotionThatWasApplied) {
   for (const Eigen::Vector2d& p : from) to.push_back(T_to_from * p);
   const std::optional<seif::Pose2> found = align(from, to);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->x, 3.0, rounding);
-  EXPECT_NEAR(found->y, -2.0, rounding);
-  EXPECT_NEAR(found->theta, 2.5, rounding);
+  EXPECT_NEAR(found->x, 3.0, score_rounding);
+  EXPECT_NEAR(found->y, -2.0, score_rounding);
+  EXPECT_NEAR(found->theta, 2.5, score_rounding);
 }
 
 TEST(Alignment, PointsWithoutADirectionFixNoRotation) {
@@ -40,15 +40,15 @@ TEST(Alignment, NeverMirrors) {
   // A mirror image would fit exactly. The best rotation is none, and leaves two of four points 2 m off.
   const std::vector<PointPair> points = {
       {{2, 0}, {2, 0}}, {{0, 1}, {0, -1}}, {{-2, 0}, {-2, 0}}, {{0, -1}, {0, 1}}};
-  EXPECT_NEAR(*score_points(points).rmse_aligned, std::sqrt(2.0), rounding);
+  EXPECT_NEAR(*score_points(points).rmse_aligned, std::sqrt(2.0), score_rounding);
 }
 
 /// Two points, estimated 1 m too far apart: nothing but half a metre at each end remains after alignment.
 TEST(ScorePoints, MatchesTheHandComputedCase) {
   const std::vector<PointPair> points = {{{10, 5}, {0, 0}}, {{10, 8}, {2, 0}}};
   const PointScore score = score_points(points);
-  EXPECT_NEAR(*score.rmse, std::sqrt((125.0 + 128.0) / 2.0), rounding);
-  EXPECT_NEAR(*score.rmse_aligned, 0.5, rounding);
+  EXPECT_NEAR(*score.rmse, std::sqrt((125.0 + 128.0) / 2.0), score_rounding);
+  EXPECT_NEAR(*score.rmse_aligned, 0.5, score_rounding);
   EXPECT_FALSE(score_points({}).rmse);
 }
 
@@ -61,17 +61,17 @@ std::vector<PosePair> drifting() {
 
 TEST(AbsoluteTrajectoryError, MatchesTheHandComputedCase) {
   // sum of (0.01 i)^2 over 0..10 is 385e-4.
-  EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse, std::sqrt(385e-4 / 11.0), rounding);
+  EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse, std::sqrt(385e-4 / 11.0), score_rounding);
   // A straight line turned by atan(0.1) and 1/cos longer: after alignment 0.1 (sqrt(1.01) - 1) |i - 5| is
   // left.
   const double left = 0.1 * (std::sqrt(1.01) - 1.0) * std::sqrt(10.0);
-  EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse_aligned, left, rounding);
+  EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse_aligned, left, score_rounding);
 }
 
 TEST(RelativePoseError, MatchesTheHandComputedCase) {
   const RelativePoseError error = relative_pose_error(drifting(), 0.5);
-  EXPECT_NEAR(*error.translation, 0.05, rounding);
-  EXPECT_NEAR(*error.rotation, 0.0, rounding);
+  EXPECT_NEAR(*error.translation, 0.05, score_rounding);
+  EXPECT_NEAR(*error.rotation, 0.0, score_rounding);
 }
 
 TEST(RelativePoseError, IsMeasuredInTheFrameOfTheRobot) {
@@ -81,8 +81,8 @@ TEST(RelativePoseError, IsMeasuredInTheFrameOfTheRobot) {
       {0.0, {7, 7, 1.0}, {0, 0, pi / 2}},
       {1.0, seif::Pose2{7, 7, 1.0} * seif::Pose2{1, 0, 0.2}, {0, 1, pi / 2}}};
   const RelativePoseError error = relative_pose_error(poses, 1.0);
-  EXPECT_NEAR(*error.translation, 0.0, rounding);
-  EXPECT_NEAR(*error.rotation, 0.2, rounding);
+  EXPECT_NEAR(*error.translation, 0.0, score_rounding);
+  EXPECT_NEAR(*error.rotation, 0.2, score_rounding);
 }
 
 TEST(RelativePoseError, TakesNoPairThatIsNotTheIntervalApart) {
@@ -92,7 +92,7 @@ TEST(RelativePoseError, TakesNoPairThatIsNotTheIntervalApart) {
 }
 
 TEST(PoseError, TurnsTheShortWay) {
-  EXPECT_NEAR(pose_error({0, 0, pi - 0.1}, {0, 0, -pi + 0.1})(2), -0.2, rounding);
+  EXPECT_NEAR(pose_error({0, 0, pi - 0.1}, {0, 0, -pi + 0.1})(2), -0.2, score_rounding);
 }
 
 TEST(Nees, OfGaussianErrorsIsOnePerDegreeOfFreedom) {
@@ -113,7 +113,7 @@ TEST(Nees, OfGaussianErrorsIsOnePerDegreeOfFreedom) {
 
 TEST(Nees, MatchesTheHandComputedCase) {
   EXPECT_NEAR(*nees(Eigen::Vector2d(1.0, 2.0), Eigen::Vector2d(1.0, 4.0).asDiagonal().toDenseMatrix()), 1.0,
-              rounding);
+              score_rounding);
 }
 
 TEST(Nees, OfAnImproperBeliefIsNothing) {
