@@ -2,19 +2,14 @@
 
 #include <algorithm>
 
-#include "seif/couplings.hpp"
-#include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
-#include "seif/motion_update.hpp"
 #include "seif/relocation.hpp"
 
 namespace seif {
 
 Eseif::Eseif(const EstimatorSetup& setup, const EseifOptions& options)
-    : state_(setup.start), options_(options), T_robot_sensor_(setup.T_robot_sensor) {}
-
-void Eseif::motion_update(const Odometry& odometry) { seif::motion_update(state_, odometry); }
+    : InformationFilter(setup), options_(options) {}
 
 void Eseif::measurement_update(const Scan& scan, const StageDone& done) {
   now_ = scan.observations;
@@ -70,28 +65,9 @@ void Eseif::solve(double t) {
 
 Counts Eseif::counts() const {
   return {.blocks_touched = state_.blocks_touched(),
+          .relocations = relocations_,
           .active_landmarks = state_.active_count(),
-          .links = state_.link_count(),
-          .relocations = relocations_};
-}
-
-void Eseif::landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const {
-  landmarks_of(state_, landmarks, out);
-}
-
-void Eseif::couplings(LandmarkId of, std::vector<Coupling>& out) const { couplings_of(state_, of, out); }
-
-Eigen::MatrixXd Eseif::whole_belief_matrix() const { return dense_Omega_of(state_); }
-
-std::vector<LandmarkEstimate> Eseif::map() const { return map_of(state_); }
-
-std::optional<MarginalCovariances> Eseif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
-  return marginals_of(state_, landmarks);
-}
-
-std::optional<std::vector<Eigen::MatrixXd>> Eseif::joint_covariances(
-    std::span<const LandmarkIds> groups) const {
-  return joint_covariances_of(state_, groups);
+          .links = state_.link_count()};
 }
 
 }  // namespace seif

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "seif/estimator.hpp"
-#include "seif/information_state.hpp"
+#include "seif/information_filter.hpp"
 
 namespace seif {
 
@@ -18,35 +17,19 @@ struct EseifOptions {
 /// No link is ever cut: when the robot would have too many, the observations are split, it is marginalised
 /// out after the first part, and put back from the second part alone. That is exact, and forgets the odometry
 /// up to there. The mean is recovered exactly, so an update does not take constant time.
-class Eseif final : public Estimator {
+class Eseif final : public InformationFilter {
  public:
   Eseif(const EstimatorSetup& setup, const EseifOptions& options);
 
-  void motion_update(const Odometry& odometry) override;
   void measurement_update(const Scan& scan, const StageDone& done) override;
-  Pose2 pose() const override { return state_.pose(); }
   Counts counts() const override;
-  std::size_t memory_bytes() const override { return state_.memory_bytes(); }
-  void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
-  BeliefMatrix belief_matrix() const override { return BeliefMatrix::information; }
-  void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
-  Eigen::MatrixXd whole_belief_matrix() const override;
-  std::vector<LandmarkEstimate> map() const override;
-  std::optional<MarginalCovariances> marginal_covariances(
-      std::span<const LandmarkId> landmarks) const override;
-  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
-      std::span<const LandmarkIds> groups) const override;
-
-  const InformationState& state() const { return state_; }
 
  private:
   bool overflows(const Scan& scan) const;
   void hold_back(const Scan& scan);
   void solve(double t);
 
-  InformationState state_;
   EseifOptions options_;
-  Pose2 T_robot_sensor_;
   std::int64_t relocations_ = 0;
   std::vector<Observation> known_;      // of landmarks in the map, by bearing
   std::vector<Observation> now_;        // taken in before the robot is marginalised out

@@ -12,9 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "seif/counts.hpp"
 #include "seif/types.hpp"
 
 namespace seif {
+
+class LocalBelief;
 
 /// The parts of an update that are timed apart. A filter that lacks one never reports it.
 enum class Stage { motion, measurement, sparsification, mean_recovery };
@@ -27,32 +30,6 @@ struct EstimatorSetup {
   PoseEstimate start;      // drawn from N(truth, P0); the covariance is positive definite
   Pose2 T_robot_sensor;    // where the landmark sensor sits
   std::mt19937_64 random;  // the filter's own stream, for those that draw
-};
-
-/// The work that a filter has done since it was made, and what it holds now.
-struct Counts {
-  std::int64_t blocks_touched = 0;  // [-] blocks of the state read or written, summed over all updates
-  int active_landmarks = 0;         // [-] landmarks with a link to the robot
-  std::int64_t links = 0;           // [-] the report's count: robot's links + landmark pairs
-  std::int64_t relocations =
-      0;                   // [-] times the robot was marginalised out and put back, since the filter was made
-  std::int64_t gated = 0;  // [-] observations of known landmarks left out: too far from what was expected
-  std::int64_t weakened = 0;  // [-] those that counted less, since they were far from it
-
-  // Diagnostics that cost constant time; nothing from filters that do not have them.
-
-  /// [-] Sum of r_i' Omega_ii^-1 r_i over blocks i, each as it was when last touched: how far the mean is
-  /// from the filter's own Omega^-1 xi. Divided by one and the most neighbours that a block has, it is no
-  /// more than the squared error of the mean in units of sigma, r' Omega^-1 r.
-  std::optional<double> mean_residual = {};
-  /// [nat] Anchoring to the world frame that the sparsifications so far have left out, as sparsify() returns
-  /// it.
-  std::optional<double> anchoring = {};
-  /// [-] v' S^-1 v of the latest scan: of all its observations of landmarks that were known, together, but
-  /// for those left out by a gate; of what was believed before it. Of a right filter it has a chi-square
-  /// distribution with `innovation_degrees` of freedom, and is independent from scan to scan.
-  std::optional<double> innovation = {};
-  int innovation_degrees = 0;  // [-] two for each observation
 };
 
 /// A landmark of the map.
@@ -105,6 +82,10 @@ class Estimator {
   /// Of a filter that finds out by itself: which landmark of its map it took each observation of the latest
   /// scan for, in their order; no_landmark: left out. Empty of others: what the observation says.
   virtual std::span<const LandmarkId> associations() const { return {}; }
+
+  /// What data association asks for (association/local_belief.hpp). Null: the filter cannot tell it in bounded
+  /// work, and associations must be known.
+  virtual LocalBelief* local_belief() { return nullptr; }
 
   /// T_world_robot as now believed.
   virtual Pose2 pose() const = 0;

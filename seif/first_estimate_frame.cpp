@@ -42,7 +42,7 @@ FramedPose pose_among(std::span<FirstEstimate> landmarks, const Pose2& pose, con
   const Eigen::Vector2d here(pose.x, pose.y);
   const auto fit_to = [&](const Pose2& at) {
     return [&here, sighting_sd, there = Eigen::Vector2d(at.x, at.y)](const FirstEstimate& landmark) {
-      return stands_for(landmark.first - there, landmark.mean - here, sighting_sd);
+      return are_levers_alike(landmark.first - there, landmark.mean - here, sighting_sd);
     };
   };
   const auto others = std::ranges::partition(landmarks, fit_to(carried));

@@ -14,10 +14,11 @@ struct FirstEstimate {
   Eigen::Vector2d first;
 };
 
-/// Whether a lever between first estimates may stand for the one between means: not if it is farther from it
-/// than the noise of a sighting explains, `sighting_sd` [m]. Then the landmark was moved with another part of
-/// the map. Chosen on rings of 500 m, where five to ten made no difference.
-inline bool stands_for(const Eigen::Vector2d& first_lever, const Eigen::Vector2d& lever, double sighting_sd) {
+/// Whether a lever between first estimates can be used for the one between means [m]: not if the two differ by
+/// more than the noise of a sighting explains, `sighting_sd` [m]. Then the landmark was moved with another part
+/// of the map. The bound was chosen on rings of 500 m, where bounds of five to ten made no difference.
+inline bool are_levers_alike(const Eigen::Vector2d& first_lever, const Eigen::Vector2d& lever,
+                             double sighting_sd) {
   constexpr double most = 7.0;  // [sigma]
   return (first_lever - lever).squaredNorm() <= most * most * sighting_sd * sighting_sd;
 }

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "seif/full_state.hpp"
+
 namespace seif {
 namespace {
 
@@ -124,26 +126,6 @@ std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
   return inverse;
 }
 
-std::vector<LandmarkEstimate> map_of(const InformationState& state) {
-  std::vector<LandmarkEstimate> map;
-  map.reserve(static_cast<std::size_t>(state.landmark_count()));
-  for (int slot = 0; slot < state.landmark_count(); ++slot) map.push_back({state.id(slot), state.mean(slot)});
-  return map;
-}
-
-Eigen::MatrixXd dense_Omega_of(const InformationState& state) {
-  const Eigen::MatrixXd lower = state.full_Omega();
-  return lower.selfadjointView<Eigen::Lower>();
-}
-
-void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
-                  std::vector<LandmarkEstimate>& out) {
-  out.clear();
-  for (const LandmarkId landmark : landmarks) {
-    if (const auto slot = state.find(landmark)) out.push_back({landmark, state.mean(*slot)});
-  }
-}
-
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
   const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
@@ -151,13 +133,13 @@ std::optional<MarginalCovariances> marginals_of(const InformationState& state,
   if (landmarks.size() <= few && landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
     std::vector<std::vector<int>> blocks = {{0, 1, 2}};
     for (const LandmarkId landmark : landmarks) blocks.push_back({row_of(landmark), row_of(landmark) + 1});
-    const auto Sigma = blocks_of_inverse(state.full_Omega(), blocks);
+    const auto Sigma = blocks_of_inverse(full_Omega(state), blocks);
     if (!Sigma) return std::nullopt;
     marginals.pose = Sigma->front();
     marginals.landmarks.assign(Sigma->begin() + 1, Sigma->end());
     return marginals;
   }
-  const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(state.full_Omega());
+  const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(full_Omega(state));
   if (!Sigma) return std::nullopt;
   marginals.pose = Sigma->block<3>(0);
   for (const LandmarkId landmark : landmarks)
@@ -170,7 +152,7 @@ std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const Informati
   const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
   std::vector<std::vector<int>> blocks;
   for (const LandmarkIds& group : groups) blocks.push_back(joint_rows(group, row_of));
-  return blocks_of_inverse(state.full_Omega(), blocks);
+  return blocks_of_inverse(full_Omega(state), blocks);
 }
 
 }  // namespace seif

@@ -2,6 +2,7 @@
 // entries of the inverse that lie on the factor's pattern.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,16 +51,6 @@ std::vector<int> joint_rows(const LandmarkIds& group, const RowOf& row_of) {
   }
   return rows;
 }
-
-/// All means, in the order of the slots.
-std::vector<LandmarkEstimate> map_of(const InformationState& state);
-
-/// All of Omega. (3+2N x 3+2N)
-Eigen::MatrixXd dense_Omega_of(const InformationState& state);
-
-/// As Estimator::landmarks, in constant time for each.
-void landmarks_of(const InformationState& state, std::span<const LandmarkId> landmarks,
-                  std::vector<LandmarkEstimate>& out);
 
 /// As Estimator::marginal_covariances. For a few landmarks little more than the factorisation.
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,

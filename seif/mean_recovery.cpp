@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
+#include "seif/full_state.hpp"
+
 namespace seif {
 namespace {
 
@@ -51,9 +53,9 @@ bool solve_for_window(InformationState& state, Eigen::Ref<Eigen::VectorXd> d) {
 }
 
 bool solve_mean(InformationState& state) {
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt(state.full_Omega());
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt(full_Omega(state));
   if (llt.info() != Eigen::Success) return false;
-  state.move_all(llt.solve(state.full_r()));
+  move_all(state, llt.solve(full_r(state)));
   return true;
 }
 

@@ -8,6 +8,14 @@
 
 namespace seif {
 
+/// How a filter recovers its mean at the end of an update.
+enum class MeanRecovery {
+  coordinate_descent,  // the report's: PlainSeif, in constant time
+  multilevel,          // Seif: rigid groups of landmarks (groups/), towards the exact mean, in least memory
+  tree,                // Seif: condensation tree (tree/), exact in corridors, nearly so in large areas
+  exact                // sparse Cholesky: exact, not in constant time
+};
+
 /// The report's coordinate descent, eqs. (42), (43), Lemma 4: sets each coordinate to its optimum given all
 /// others, once for every active landmark, `random_landmarks` (the report's K) drawn from the whole map, and
 /// the robot. In residual form a coordinate's step is Omega_ii^-1 r_i. The robot comes last, so that r_x = 0
@@ -15,8 +23,9 @@ namespace seif {
 /// steps before.
 [[nodiscard]] bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random);
 
-/// d = Omega_ww^-1 d over the window (w x 1): the step of robot and active landmarks that a residual d of
-/// theirs asks for, all other landmarks held. False, with d unchanged, if Omega_ww is not positive definite.
+/// Replaces a residual d of robot and active landmarks by the step that it asks for, with all other landmarks
+/// held: d = Omega_ww^-1 d over the window (w x 1). False, with d unchanged, if Omega_ww is not positive
+/// definite.
 [[nodiscard]] bool solve_for_window(InformationState& state, Eigen::Ref<Eigen::VectorXd> d);
 
 /// The exact mean, eq. (37): moves it by Omega^-1 r, by sparse Cholesky. Not in constant time.

@@ -74,7 +74,7 @@ InverseObservation invert_observation(const Pose2& T_world_robot, const Pose2& T
   return inverse;
 }
 
-double times_above(double squared_distance, double above) {
+double huber_excess(double squared_distance, double above) {
   if (above <= 0.0 || squared_distance <= above * above) return 1.0;
   return std::sqrt(squared_distance) / above;
 }

@@ -44,8 +44,8 @@ struct InverseObservation {
 InverseObservation invert_observation(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                       const Observation& observation);
 
-/// Of a squared Mahalanobis distance: how many times the distance is above `above` [sigma]; 1 if it is not,
-/// or if `above` is 0. One over Huber's weight. [-]
-double times_above(double squared_distance, double above);
+/// The inverse of Huber's weight: the Mahalanobis distance over `robust_above` [sigma] where it is larger, else 1;
+/// 1 if `robust_above` is 0. [-]
+double huber_excess(double squared_distance, double robust_above);
 
 }  // namespace seif

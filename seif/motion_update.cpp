@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "seif/linearisation.hpp"
 #include "seif/models.hpp"
 
 namespace seif {
@@ -47,9 +48,9 @@ void symmetrise_robot_rows(InformationState& state) {
 
 void motion_update(InformationState& state, const Odometry& odometry) {
   const PredictedPose predicted = predict_pose(state.pose(), odometry);
-  const Eigen::Vector2d moved = state.move_pose(predicted.pose);
+  const Eigen::Vector2d moved = move_to_prediction(state, predicted.pose);
   Eigen::Matrix3d F = predicted.J_wrt_pose;
-  if (state.uses_first_estimates()) F.topRightCorner<2, 1>() << -moved.y(), moved.x();
+  if (state.first_estimates().in_use()) F.topRightCorner<2, 1>() << -moved.y(), moved.x();
   change_pose_variable(state, F);
   add_motion_noise(state, predicted.noise_factor);
   symmetrise_robot_rows(state);

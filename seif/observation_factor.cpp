@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cassert>
 
+#include "seif/linearisation.hpp"
+
 namespace seif {
 namespace {
 
@@ -21,8 +23,8 @@ ObservationFactor unlinearised(const InformationState& state, int slot, const Ei
 /// estimate about the pose's does, so that turning everything does nothing. The landmark is taken to be at p.
 void keep_null_space(const InformationState& state, const Eigen::Vector2d& p_world_landmark,
                      ObservationFactor& factor) {
-  if (!state.uses_first_estimates()) return;
-  const Eigen::Vector2d lever = state.lever(factor.slot, p_world_landmark);
+  if (!state.first_estimates().in_use()) return;
+  const Eigen::Vector2d lever = seif::lever(state, factor.slot, p_world_landmark);
   factor.J_x.col(2) = factor.J_m * Eigen::Vector2d(lever.y(), -lever.x());
 }
 

@@ -9,6 +9,9 @@
 #include <optional>
 #include <utility>
 
+#include "seif/full_state.hpp"
+#include "seif/linearisation.hpp"
+
 namespace seif {
 namespace {
 
@@ -38,17 +41,18 @@ bool marginalise_landmarks(InformationState& state, std::span<const int> slots) 
   return true;
 }
 
-/// Of a positive definite matrix (3 x 3).
-double log_determinant(const Eigen::Matrix3d& M) {
-  return 2.0 * M.llt().matrixLLT().diagonal().array().log().sum();
+/// Nothing if M (3 x 3) is not positive definite.
+std::optional<double> log_determinant(const Eigen::Matrix3d& M) {
+  const LLT3 llt(M);
+  if (llt.info() != Eigen::Success) return std::nullopt;
+  return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
 }
 
-/// Takes away the robot's links to the landmarks `slots`. With D in state.work(), the belief over the window
-/// from which p(x | Y+) is to be taken, and x, K, Z the robot and the landmarks that stay and that go, (50)
-/// is
+/// Takes away the robot's links to the landmarks `slots`. D in state.work() is the belief over the window from
+/// which p(x | Y+) is taken; x, K, Z are the robot, the landmarks that stay and those that go. Eq. (50) is then
 ///   [Lambda X] = rows x of the marginal of D over (x, K),
-///   H_mm -= H_mx H_xx^-1 H_xm  (H3: the robot marginalised out; m all landmarks of the window),
-///   H_xx = Lambda, H_xK = X, H_xZ = 0, H_KK += X' Lambda^-1 X.
+///   Omega_mm -= Omega_mx Omega_xx^-1 Omega_xm  (the robot marginalised out; m: all landmarks of the window),
+///   Omega_xx = Lambda, Omega_xK = X, Omega_xZ = 0, Omega_KK += X' Lambda^-1 X.
 bool drop_links(InformationState& state, std::span<const int> slots) {
   auto Omega = state.Omega();
   auto D = state.work();          // (w x w)
@@ -81,7 +85,7 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
 /// The information matrix of the marginal over the window, the passive landmarks P marginalised out:
 /// Omega_ww - Omega_wP Omega_PP^-1 Omega_Pw (w x w). Nothing if Omega_PP is not positive definite.
 std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
-  const Sparse Omega = state.full_Omega().selfadjointView<Eigen::Lower>();
+  const Sparse Omega = full_Omega(state).selfadjointView<Eigen::Lower>();
   const int window = state.window_size();
   Eigen::VectorXi order(
       Omega.rows());  // old row -> new row: the window in its own order, then the passive landmarks
@@ -112,7 +116,7 @@ void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const 
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
     const int slot = state.active(position);
-    const Eigen::Vector2d lever = state.lever(slot, state.mean(slot));
+    const Eigen::Vector2d lever = seif::lever(state, slot, state.mean(slot));
     V.leftCols<2>() += D.middleCols<2>(row);
     V.col(2) += lever.x() * D.col(row + 1) - lever.y() * D.col(row);
     squared_levers += lever.squaredNorm();
@@ -129,15 +133,15 @@ Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Colu
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
     const int slot = state.active(position);
-    const Eigen::Vector2d lever = state.lever(slot, state.mean(slot));
+    const Eigen::Vector2d lever = seif::lever(state, slot, state.mean(slot));
     PtV.topRows<2>() += V.middleRows<2>(row);
     PtV.row(2) += lever.x() * V.row(row + 1) - lever.y() * V.row(row);
   }
   return scales.cwiseInverse().asDiagonal() * PtV;
 }
 
-/// D_f = D - D P (P' D P)^+ P' D. A mode that D says nothing of has an eigenvalue of rounding size and either
-/// sign: it is left alone.
+/// D_f = D - D P (P' D P)^+ P' D. A mode about which D knows nothing has an eigenvalue of rounding size and of
+/// either sign: it is left alone.
 void float_window(InformationState& state) {
   auto D = state.work();
   auto V = state.work_columns();
@@ -160,11 +164,12 @@ void float_window(InformationState& state) {
 
 std::optional<double> sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
   assert(static_cast<int>(slots.size()) < state.active_count());
-  double anchored = 0.0;
+  std::optional<double> anchored = 0.0;
   state.work() = state.Omega();
   if (rule != SparsificationRule::report) {
     if (!marginalise_landmarks(state, slots)) return std::nullopt;
     anchored = log_determinant(state.work().topLeftCorner<3, 3>());
+    if (!anchored) return std::nullopt;
   }
   switch (rule) {
     case SparsificationRule::report:
@@ -183,7 +188,8 @@ std::optional<double> sparsify(InformationState& state, SparsificationRule rule,
   }
   if (!drop_links(state, slots)) return std::nullopt;
   if (rule == SparsificationRule::report) return 0.0;
-  return anchored - log_determinant(state.Omega().topLeftCorner<3, 3>());
+  // drop_links() has factorised this block already: it is positive definite.
+  return *anchored - log_determinant(state.Omega().topLeftCorner<3, 3>()).value();
 }
 
 void choose_to_drop(const InformationState& state, DropOrder order, int count, std::vector<int>& slots) {
@@ -207,6 +213,15 @@ void choose_to_drop(const InformationState& state, DropOrder order, int count, s
   for (int position = 0; position < state.active_count(); ++position) slots.push_back(state.active(position));
   std::ranges::partial_sort(slots, slots.begin() + count, {}, rank);
   slots.resize(static_cast<std::size_t>(count));
+}
+
+void choose_surplus(const InformationState& state, const LinkBounds& bounds, std::vector<int>& slots) {
+  slots.clear();
+  if (state.active_count() <= std::max(bounds.theta_x, bounds.theta_max)) return;
+  choose_to_drop(state, bounds.order, state.active_count() - bounds.theta_x, slots);
+  if (bounds.keep_in_view) {
+    std::erase_if(slots, [&](int slot) { return state.scans_since_seen(slot) == 0; });
+  }
 }
 
 }  // namespace seif

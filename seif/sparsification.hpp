@@ -9,47 +9,52 @@
 
 namespace seif {
 
-/// All rules keep p(Y), the belief over the map, and replace p(x | Y) by a p(x | Y+) in which the robot no
-/// longer depends on the landmarks Y0 that are dropped, eq. (46). They differ in the belief D from which p(x
-/// | Y+) is taken.
+/// All rules keep p(Y), the belief over the map. They replace p(x | Y) by a p(x | Y+) in which the robot no longer
+/// depends on the dropped landmarks Y0, eq. (46). They differ in the belief D from which p(x | Y+) is taken.
 enum class SparsificationRule {
-  /// Eqs. (47)-(50): D = p(x, Y+, Y0 | Y- = 0). To set the passive landmarks Y- to a constant anchors the
-  /// window to the
-  /// world frame, which counts as known what is not: the filter becomes overconfident. In constant time.
+  /// Eqs. (47) to (50): D = p(x, Y+, Y0 | Y- = 0). Setting the passive landmarks Y- to a constant anchors the
+  /// window to the world frame. That counts as knowledge what is not known: the filter becomes overconfident.
+  /// In constant time.
   report,
-  /// D = p(x, Y+, Y0), the passive landmarks marginalised out: Eustice, Walter, Leonard, "Sparse extended
-  /// information
-  /// filters: insights into sparsification", IROS 2005. Not in constant time.
+  /// D = p(x, Y+, Y0), with the passive landmarks marginalised out: Eustice, Walter, Leonard, "Sparse extended
+  /// information filters: insights into sparsification", IROS 2005. Not in constant time.
   modified,
-  /// D = p(x, Y+, Y0 | Y- = 0) with its rigid-body modes taken out: what it knows of where the window lies as
-  /// a whole. So
-  /// nothing is anchored, and what the landmarks of the window tell of each other and of the robot is kept.
-  /// In constant
-  /// time. That it does not make the filter overconfident is measured, not proven.
+  /// D = p(x, Y+, Y0 | Y- = 0) without its rigid-body modes, that is, without what it knows of the position and
+  /// heading of the window as a whole. So nothing is anchored, and what the landmarks of the window tell of each
+  /// other and of the robot is kept. In constant time. That it is not overconfident is measured, not proven.
   gauge_free
 };
 
-/// Takes away the robot's links to the active landmarks `slots`, which become passive. r stays, and so does
-/// the mean, eq. (51). At least one landmark must stay active; with gauge_free two, at different places.
+/// Takes away the robot's links to the active landmarks `slots`, which become passive. r stays, and so does the
+/// mean, eq. (51). At least one landmark must stay active; with gauge_free two, at different places.
 ///
-/// Returns how much less D knows of the pose, given the landmarks that stay, than the report's rule takes it
-/// to know: log det Lambda(H0) - log det Lambda(D), with Lambda the information of p(x | Y+). [nat] That is
-/// the anchoring to the world frame that was left out. Nothing, with the state unchanged, if a matrix turns
-/// out not to be positive definite.
+/// Returns how much more the report's rule knows of the pose, given the landmarks that stay, than D does:
+/// log det Lambda(H0) - log det Lambda(D), with Lambda the information of p(x | Y+). [nat] That is the anchoring
+/// to the world frame that was left out. Nothing, with the state unchanged, if a matrix is not positive definite.
 [[nodiscard]] std::optional<double> sparsify(InformationState& state, SparsificationRule rule,
                                              std::span<const int> slots);
 
-/// Which active landmarks lose their link to the robot first. A link's strength is the Frobenius norm of its
+/// Which active landmarks lose their link to the robot first. The strength of a link is the Frobenius norm of its
 /// block.
 enum class DropOrder {
   weakest_link,         // the report's, to the letter
-  weakest_out_of_view,  // the weakest link of those that the latest scan did not see; then the weakest of the
-                        // others
-  least_recently_seen   // of those seen last in the same scan, the weakest link
+  weakest_out_of_view,  // the weakest links among landmarks out of view; then the weakest of the others
+  least_recently_seen   // among landmarks seen last in the same scan, the weakest link
 };
 
 /// Fills `slots` with the `count` active landmarks that come first in that order. `count` is at most
 /// active_count().
 void choose_to_drop(const InformationState& state, DropOrder order, int count, std::vector<int>& slots);
+
+/// When the robot has too many links, and which it keeps.
+struct LinkBounds {
+  int theta_x = 6;    // [-] links that stay after a sparsification
+  int theta_max = 0;  // [-] sparsify above this, or above theta_x if that is larger
+  DropOrder order = DropOrder::least_recently_seen;  // which lose their link first
+  bool keep_in_view = true;                          // never drop a landmark of the latest scan
+};
+
+/// Fills `slots` with the active landmarks that are to lose their link to the robot now; often none.
+void choose_surplus(const InformationState& state, const LinkBounds& bounds, std::vector<int>& slots);
 
 }  // namespace seif

@@ -13,7 +13,7 @@
 namespace worlds {
 namespace {
 
-constexpr double largest = 1e6;  // of any column: beyond any run
+constexpr double largest_value = 1e6;  // of any column: beyond any run
 constexpr std::array<const char*, 3> columns = {"t", "v", "omega"};
 
 /// The row's numbers, or a message in their place.
@@ -28,8 +28,8 @@ std::optional<VelocityCommand> parse_row(std::string_view row, std::string& mess
     }
     const std::string_view cell = row.substr(0, comma);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
-    if (error != std::errc() || end != cell.data() + cell.size() || !(std::abs(values[i]) <= largest)) {
-      message = fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest, cell);
+    if (error != std::errc() || end != cell.data() + cell.size() || !(std::abs(values[i]) <= largest_value)) {
+      message = fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest_value, cell);
       return std::nullopt;
     }
     row.remove_prefix(last ? comma : comma + 1);

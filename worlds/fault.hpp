@@ -3,13 +3,9 @@
 
 #include <Eigen/Core>
 
-namespace worlds {
+#include "worlds/placement.hpp"
 
-/// Where something stands on the plane.
-struct Placement {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world [m]
-  double heading = 0.0;                                // [rad] in (-pi, pi]
-};
+namespace worlds {
 
 enum class FaultKind {
   bad_observation,  // one observation is no measurement at all

@@ -24,49 +24,9 @@
 #include <vector>
 
 #include "worlds/document.hpp"
+#include "worlds/field_spec.hpp"
 
 namespace worlds {
-
-/// The numbers that are allowed, in the unit of the key. All of them are finite.
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  bool excludes_min = false;
-  double multiple_of = 0.0;  // [-] 0: of anything
-};
-
-inline Range any_number() { return {}; }
-inline Range at_least(double min) { return {.min = min}; }
-inline Range more_than(double min) { return {.min = min, .excludes_min = true}; }
-inline Range between(double min, double max) { return {.min = min, .max = max}; }
-inline Range more_than_up_to(double min, double max) {
-  return {.min = min, .max = max, .excludes_min = true};
-}
-inline Range even_between(double min, double max) { return {.min = min, .max = max, .multiple_of = 2}; }
-
-/// What it means that a key is missing.
-enum class Need {
-  defaulted,  // the default holds, and the reader writes it into the document
-  optional,   // the value stays as it is, and nothing is written
-  required,   // a problem
-};
-
-/// One value with a key of its own.
-struct FieldSpec {
-  std::string_view key;
-  std::string_view help;
-  Need need = Need::defaulted;
-  Range range = {};                       // numbers
-  std::vector<std::string> choices = {};  // texts; empty: any
-  std::size_t min_count = 0;              // lists of points
-  std::size_t max_count = 0;              // lists of names
-};
-
-/// Which names a map of named things may have: [A-Za-z0-9_-]+, and none that is reserved.
-struct NameRule {
-  std::vector<std::string> reserved;
-  std::vector<std::string> known;  // names that mean something by themselves: the schema describes each
-};
 
 /// See the head of the file. Functions that take `describe` hand it the fields of the inner map.
 class Fields {

@@ -28,11 +28,18 @@ double largest_variance(const Eigen::Matrix2d& covariance) {
   return mean + std::hypot(half_difference, covariance(0, 1));
 }
 
+LocalBelief& belief_of(Estimator& filter) {
+  if (LocalBelief* belief = filter.local_belief()) return *belief;
+  throw std::invalid_argument(
+      "association needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
+}
+
 }  // namespace
 
-AssociatingFilter::AssociatingFilter(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
+AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
                                      const AssociationOptions& options)
     : filter_(std::move(filter)),
+      belief_(belief_of(*filter_)),
       start_(setup.start),
       T_robot_sensor_(setup.T_robot_sensor),
       options_(options),
@@ -57,7 +64,7 @@ void AssociatingFilter::motion_update(const Odometry& odometry) {
 void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
   ++scan_;
   widen_view(scan);
-  filter_->begin_association(scan.t);
+  belief_.begin_association(scan.t);
   tentative_.begin_scan(std::exchange(wander_, 0.0));
   refresh_grid();
   find_pairs(scan);
@@ -65,7 +72,7 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
   note_expected();
   suspect();
   merge();
-  filter_->want(wanted_);
+  belief_.want(wanted_);
   filter_->measurement_update(named_, done);
 }
 
@@ -81,9 +88,9 @@ void AssociatingFilter::widen_view(const Scan& scan) {
 
 /// Landmarks at hand may have moved; all others wait until they are.
 void AssociatingFilter::refresh_grid() {
-  filter_->landmarks_at_hand(at_hand_);
+  belief_.landmarks_at_hand(at_hand_);
   std::erase_if(at_hand_, [&](LandmarkId id) { return landmark(id).is_retired; });
-  for (const LandmarkId id : at_hand_) grid_->move(id, filter_->mean_of(id));
+  for (const LandmarkId id : at_hand_) grid_->move(id, belief_.mean_of(id));
 }
 
 // Candidates.
@@ -104,8 +111,8 @@ void AssociatingFilter::find_pairs(const Scan& scan) {
 /// Of the pose in the map: without what the start is uncertain of, which moves the map with the pose.
 Eigen::Matrix3d AssociatingFilter::pose_covariance_in_map() const {
   Eigen::Matrix3d P_x;
-  filter_->covariance_with({}, P_x);
-  if (!filter_->keeps_start_uncertainty()) return P_x;
+  belief_.covariance_with({}, P_x);
+  if (!belief_.keeps_start_uncertainty()) return P_x;
   const Pose2 pose = filter_->pose();
   Eigen::Matrix3d J_wrt_start = Eigen::Matrix3d::Identity();
   J_wrt_start.topRightCorner<2, 1>() << start_.mean.y - pose.y, pose.x - start_.mean.x;
@@ -120,13 +127,13 @@ void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d&
   for (const Observation& observation : scan.observations) gather_near(observation, P_x, most);
   const auto n = static_cast<Eigen::Index>(3 + 2 * asked_.size());
   if (Sigma_.rows() < n) Sigma_.resize(2 * n, 2 * n);
-  filter_->covariance_with(asked_, Sigma_.topLeftCorner(n, n));
+  belief_.covariance_with(asked_, Sigma_.topLeftCorner(n, n));
   blocks_touched_ += static_cast<std::int64_t>((asked_.size() + 1) * (asked_.size() + 2) / 2);
   matcher_.begin(static_cast<int>(seen_.size()), Sigma_.topLeftCorner(n, n));
   for (const Pair& pair : pairs_) {
     const Observation& observation = scan.observations[static_cast<std::size_t>(pair.observation)];
     matcher_.add(pair.observation, pair.landmark,
-                 filter_->expect(asked_[static_cast<std::size_t>(pair.landmark)], observation),
+                 belief_.expect(asked_[static_cast<std::size_t>(pair.landmark)], observation),
                  observation.covariance);
   }
 }
@@ -146,7 +153,7 @@ void AssociatingFilter::gather_near(const Observation& observation, const Eigen:
   const double radius = std::sqrt(2.0 * variance * matcher_.widest_gate());
   grid_->find_near(inverse.p_world_landmark, radius, most, near_);
   for (const LandmarkGrid::Near& near : near_) {
-    if (filter_->is_at_hand(near.landmark))
+    if (belief_.is_at_hand(near.landmark))
       pairs_.push_back({static_cast<int>(seen_.size()) - 1, number_of(near.landmark)});
   }
 }
@@ -197,7 +204,7 @@ LandmarkId AssociatingFilter::name_if_new(std::size_t observation) {
 bool AssociatingFilter::want_near(const Seen& seen) {
   grid_->find_near(seen.p_world, seen.radius_by_pose, most_per_observation, near_);
   std::erase_if(near_, [&](const LandmarkGrid::Near& near) {
-    return is_seen_now(near.landmark) || filter_->is_at_hand(near.landmark);
+    return is_seen_now(near.landmark) || belief_.is_at_hand(near.landmark);
   });
   for (const LandmarkGrid::Near& near : near_) {
     if (wanted_.size() < most_wanted) wanted_.push_back(near.landmark);
@@ -211,7 +218,7 @@ void AssociatingFilter::note_expected() {
   const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
   for (const LandmarkId id : at_hand_) {
     if (is_seen_now(id)) continue;
-    const Eigen::Vector2d p_sensor = T_sensor_world * filter_->mean_of(id);
+    const Eigen::Vector2d p_sensor = T_sensor_world * belief_.mean_of(id);
     const bool is_in_view =
         p_sensor.norm() <= sure_reach * landmark(id).farthest &&
         std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
@@ -258,8 +265,8 @@ bool AssociatingFilter::may_be_one(int a, int b) const {
   const int row_b = 3 + 2 * b;
   const Eigen::Matrix2d P = Sigma_.block<2, 2>(row_a, row_a) + Sigma_.block<2, 2>(row_b, row_b) -
                             Sigma_.block<2, 2>(row_a, row_b) - Sigma_.block<2, 2>(row_b, row_a);
-  const Eigen::Vector2d apart = filter_->mean_of(asked_[static_cast<std::size_t>(a)]) -
-                                filter_->mean_of(asked_[static_cast<std::size_t>(b)]);
+  const Eigen::Vector2d apart = belief_.mean_of(asked_[static_cast<std::size_t>(a)]) -
+                                belief_.mean_of(asked_[static_cast<std::size_t>(b)]);
   return apart.dot(P.inverse() * apart) <= merge_gate_;
 }
 
@@ -286,7 +293,7 @@ void AssociatingFilter::merge() {
     const auto [a, b, scans, last_scan] = *sure;
     const LandmarkId goes = landmark(b).seen <= landmark(a).seen ? b : a;
     const LandmarkId stays = goes == b ? a : b;
-    filter_->equate(stays, goes);
+    belief_.equate(stays, goes);
     landmark(stays).seen += landmark(goes).seen;
     retire(goes);
     std::ranges::replace(names_, goes, stays);

@@ -12,10 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "seif/association/associable_filter.hpp"
 #include "seif/association/landmark_grid.hpp"
+#include "seif/association/local_belief.hpp"
 #include "seif/association/tentative_landmarks.hpp"
 #include "seif/chunked_array.hpp"
+#include "seif/estimator.hpp"
 
 namespace seif {
 
@@ -40,7 +41,8 @@ struct AssociationOptions {
 /// another, stay in the filter's belief but for its map, and are never seen again.
 class AssociatingFilter final : public Estimator {
  public:
-  AssociatingFilter(std::unique_ptr<AssociableFilter> filter, const EstimatorSetup& setup,
+  /// Throws std::invalid_argument if the filter has no local belief.
+  AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
                     const AssociationOptions& options);
 
   void motion_update(const Odometry& odometry) override;
@@ -64,8 +66,6 @@ class AssociatingFilter final : public Estimator {
       std::span<const LandmarkIds> groups) const override {
     return filter_->joint_covariances(groups);
   }
-
-  const AssociableFilter& filter() const { return *filter_; }
 
  private:
   struct Landmark {
@@ -108,7 +108,8 @@ class AssociatingFilter final : public Estimator {
   void retire(LandmarkId id);
   void widen_view(const Scan& scan);
 
-  std::unique_ptr<AssociableFilter> filter_;
+  std::unique_ptr<Estimator> filter_;
+  LocalBelief& belief_;  // of filter_
   PoseEstimate start_;
   Pose2 T_robot_sensor_;
   AssociationOptions options_;

@@ -91,7 +91,7 @@ bool Ekf::admit(Linearised& linearised) {
     ++gated_;
     return false;
   }
-  const double times = times_above(squared, options_.robust_above);
+  const double times = huber_excess(squared, options_.robust_above);
   linearised.Q *= times;
   if (times > 1.0) ++weakened_;
   return true;
@@ -236,10 +236,10 @@ void Ekf::reserve(int landmarks) {
 Counts Ekf::counts() const {
   const std::int64_t n = landmark_count();
   return {.blocks_touched = blocks_touched_,
-          .active_landmarks = landmark_count(),
-          .links = n * (n + 1) / 2,
           .gated = gated_,
           .weakened = weakened_,
+          .active_landmarks = landmark_count(),
+          .links = n * (n + 1) / 2,
           .innovation = innovation_,
           .innovation_degrees = innovation_degrees_};
 }

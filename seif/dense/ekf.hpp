@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "seif/association/associable_filter.hpp"
+#include "seif/association/local_belief.hpp"
 #include "seif/dense/symmetric_downdate.hpp"
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
@@ -23,7 +23,7 @@ struct EkfOptions {
 
 /// Covariance form; all known landmarks of a scan in one update, on the lower triangle alone. O(N^2) for each
 /// update.
-class Ekf final : public AssociableFilter {
+class Ekf final : public Estimator, public LocalBelief {
  public:
   /// Throws std::invalid_argument if the start covariance is not positive definite.
   explicit Ekf(const EstimatorSetup& setup, const EkfOptions& options = {});
@@ -44,6 +44,7 @@ class Ekf final : public AssociableFilter {
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override;
 
+  LocalBelief* local_belief() override { return this; }
   void begin_association(double /*t*/) override {}
   void landmarks_at_hand(std::vector<LandmarkId>& out) const override { out = ids_; }
   bool is_at_hand(LandmarkId landmark) const override { return index_.find(landmark).has_value(); }

@@ -47,19 +47,21 @@ void grow(Eigen::MatrixXd& matrix, Eigen::Index size) {
 }
 
 /// D = Omega_mm - Omega_mx Omega_xx^-1 Omega_xm over the window's landmarks (2k x 2k): the robot follows
-/// them.
-void without_robot(const InformationState& state, Eigen::Matrix<double, Eigen::Dynamic, 3>& half,
-                   Eigen::MatrixXd& D) {
+/// them. False if Omega_xx is not positive definite.
+[[nodiscard]] bool eliminate_robot(const InformationState& state,
+                                   Eigen::Matrix<double, Eigen::Dynamic, 3>& half, Eigen::MatrixXd& D) {
   const auto Omega = state.Omega();
   const auto n = Omega.rows() - 3;
   grow(D, n);
   if (half.rows() < n) half.resize(2 * n, 3);
   const Eigen::LLT<Eigen::Matrix3d> Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
+  if (Omega_xx.info() != Eigen::Success) return false;
   auto V = half.topRows(n);
   V = Omega.bottomLeftCorner(n, 3);
   Omega_xx.matrixU().solveInPlace<Eigen::OnTheRight>(V);
   D.topLeftCorner(n, n) = Omega.bottomRightCorner(n, n);
   D.topLeftCorner(n, n).noalias() -= V * V.transpose();
+  return true;
 }
 
 }  // namespace
@@ -117,11 +119,11 @@ int MultilevelMean::find_group(int level, const Eigen::Vector2d& position) {
   return i;
 }
 
-/// near_: the groups of level 1 of the active landmarks; place_: where in it that of each position is.
+/// near_: the groups of level 1 of the active landmarks; index_in_near_: where in it that of each position is.
 void MultilevelMean::gather_groups_of_window(const InformationState& state) {
   ++visit_;
   near_.clear();
-  place_.clear();
+  index_in_near_.clear();
   for (int position = 0; position < state.active_count(); ++position) {
     const int slot = state.active(position);
     if (slot >= static_cast<int>(members_.size())) continue;  // the one that is joining
@@ -130,14 +132,14 @@ void MultilevelMean::gather_groups_of_window(const InformationState& state) {
       group(i).visit = visit_;
       near_.push_back(i);
     }
-    place_.push_back(static_cast<int>(std::ranges::find(near_, i) - near_.begin()));
+    index_in_near_.push_back(static_cast<int>(std::ranges::find(near_, i) - near_.begin()));
   }
 }
 
-/// From the groups in near_ to those that they are in; place_: where in near_ now is that of each.
+/// From the groups in near_ to those that they are in; index_in_near_: where in near_ now is that of each.
 void MultilevelMean::go_up() {
   ++visit_;
-  place_.clear();
+  index_in_near_.clear();
   std::size_t count = 0;
   for (const int i : near_) {
     const int parent = group(i).parent;
@@ -147,7 +149,7 @@ void MultilevelMean::go_up() {
       near_[count++] = parent;
     }
     const auto parents_end = near_.begin() + static_cast<std::ptrdiff_t>(count);
-    place_.push_back(static_cast<int>(std::find(near_.begin(), parents_end, parent) - near_.begin()));
+    index_in_near_.push_back(static_cast<int>(std::find(near_.begin(), parents_end, parent) - near_.begin()));
   }
   near_.resize(count);
 }
@@ -237,8 +239,8 @@ void MultilevelMean::pass_forces_on() {
 }
 
 Eigen::Matrix3d& MultilevelMean::link(int i, int j) {
-  std::vector<Link>& links = group(i).links;
-  const auto it = std::ranges::find(links, j, &Link::other);
+  std::vector<RigidGroup::Link>& links = group(i).links;
+  const auto it = std::ranges::find(links, j, &RigidGroup::Link::other);
   if (it != links.end()) return it->A;
   links.push_back({j, Eigen::Matrix3d::Zero()});
   return links.back().A;
@@ -257,63 +259,87 @@ void MultilevelMean::add_information(int i, int j, const Eigen::Matrix3d& A) {
   link(j, i) += A.transpose();
 }
 
-void MultilevelMean::before_information(const InformationState& state) {
+bool MultilevelMean::before_information(const InformationState& state) {
   active_before_ = state.active_count();
-  if (active_before_ == 0) return;
+  if (active_before_ == 0) return true;
   blocks_touched_ += state.window_blocks();
-  without_robot(state, half_, D_before_);
+  return eliminate_robot(state, half_, D_before_);
 }
 
 /// From the blocks of the window to those of its groups of level 1, from these to those of level 2, and so
 /// on.
-void MultilevelMean::after_information(const InformationState& state) {
-  if (state.active_count() == 0) return;
+bool MultilevelMean::after_information(const InformationState& state) {
+  if (state.active_count() == 0) return true;
   blocks_touched_ += state.window_blocks();
-  without_robot(state, half_, D_after_);
+  if (!eliminate_robot(state, half_, D_after_)) return false;
   const int before = 2 * active_before_;
   if (before > 0) D_after_.topLeftCorner(before, before) -= D_before_.topLeftCorner(before, before);
   gather_groups_of_window(state);
-  auto size = 3 * static_cast<Eigen::Index>(near_.size());
+  gather_change(state);
+  add_change_to_groups();
+  while (near_.front() != root_) {
+    shift_change_to_parents();
+    go_up();
+    sum_change_by_parent();
+    add_change_to_groups();
+  }
+  return true;
+}
+
+/// change_ (3g x 3g): what the groups in near_ know of each other changes by B' (D_after - D_before) B.
+void MultilevelMean::gather_change(const InformationState& state) {
+  const auto size = 3 * static_cast<Eigen::Index>(near_.size());
   grow(change_, size);
   change_.topLeftCorner(size, size).setZero();
   for (int p = 0; p < state.active_count(); ++p) {
     const Matrix23 B_p = point_in_group(member(state.active(p)).lever);
+    const int row = 3 * index_in_near_[static_cast<std::size_t>(p)];
     for (int q = 0; q < state.active_count(); ++q) {
-      change_.block<3, 3>(3 * place_[static_cast<std::size_t>(p)], 3 * place_[static_cast<std::size_t>(q)]) +=
-          B_p.transpose() * D_after_.block<2, 2>(2 * p, 2 * q) *
-          point_in_group(member(state.active(q)).lever);
+      const int col = 3 * index_in_near_[static_cast<std::size_t>(q)];
+      change_.block<3, 3>(row, col) += B_p.transpose() * D_after_.block<2, 2>(2 * p, 2 * q) *
+                                       point_in_group(member(state.active(q)).lever);
     }
   }
-  while (true) {
-    const int groups = static_cast<int>(near_.size());
-    for (int a = 0; a < groups; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        add_information(near_[static_cast<std::size_t>(a)], near_[static_cast<std::size_t>(b)],
-                        change_.block<3, 3>(3 * a, 3 * b));
-      }
+}
+
+void MultilevelMean::add_change_to_groups() {
+  const int groups = static_cast<int>(near_.size());
+  for (int a = 0; a < groups; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      add_information(near_[static_cast<std::size_t>(a)], near_[static_cast<std::size_t>(b)],
+                      change_.block<3, 3>(3 * a, 3 * b));
     }
-    if (near_.front() == root_) return;
-    for (int a = 0; a < groups; ++a) {  // change <- T' change T
-      const Group& g = group(near_[static_cast<std::size_t>(a)]);
-      const Eigen::Matrix3d T = group_in_group(g.centre - group(g.parent).centre);
-      for (int b = 0; b < groups; ++b) {  // block by block: of fixed size, in place and yet without a heap
-        change_.block<3, 3>(3 * b, 3 * a) *= T;
-        change_.block<3, 3>(3 * a, 3 * b).applyOnTheLeft(T.transpose());
-      }
-    }
-    go_up();
-    size = 3 * static_cast<Eigen::Index>(near_.size());
-    grow(change_above_, size);
-    change_above_.topLeftCorner(size, size).setZero();
-    for (int a = 0; a < groups; ++a) {
-      for (int b = 0; b < groups; ++b) {
-        change_above_.block<3, 3>(3 * place_[static_cast<std::size_t>(a)],
-                                  3 * place_[static_cast<std::size_t>(b)]) +=
-            change_.block<3, 3>(3 * a, 3 * b);
-      }
-    }
-    change_.swap(change_above_);
   }
+}
+
+/// change_ <- T' change_ T: each group's motion as one of its parent, about the parent's centre. Block by
+/// block: of fixed size, in place and without a heap.
+void MultilevelMean::shift_change_to_parents() {
+  const int groups = static_cast<int>(near_.size());
+  for (int a = 0; a < groups; ++a) {
+    const Group& g = group(near_[static_cast<std::size_t>(a)]);
+    const Eigen::Matrix3d T = group_in_group(g.centre - group(g.parent).centre);
+    for (int b = 0; b < groups; ++b) {
+      change_.block<3, 3>(3 * b, 3 * a) *= T;
+      change_.block<3, 3>(3 * a, 3 * b).applyOnTheLeft(T.transpose());
+    }
+  }
+}
+
+/// Adds up the blocks of groups that have the same parent, once near_ holds the parents.
+void MultilevelMean::sum_change_by_parent() {
+  const int below = static_cast<int>(index_in_near_.size());
+  const auto size = 3 * static_cast<Eigen::Index>(near_.size());
+  grow(change_above_, size);
+  change_above_.topLeftCorner(size, size).setZero();
+  for (int a = 0; a < below; ++a) {
+    const int row = 3 * index_in_near_[static_cast<std::size_t>(a)];
+    for (int b = 0; b < below; ++b) {
+      const int col = 3 * index_in_near_[static_cast<std::size_t>(b)];
+      change_above_.block<3, 3>(row, col) += change_.block<3, 3>(3 * a, 3 * b);
+    }
+  }
+  change_.swap(change_above_);
 }
 
 // The solution.
@@ -345,7 +371,7 @@ bool MultilevelMean::solve_window(InformationState& state) {
 Eigen::Vector3d MultilevelMean::residual_force(int i) const {
   const Group& g = group(i);
   Eigen::Vector3d R = g.S - g.A * total(i);
-  for (const Link& l : g.links) R -= l.A * total(l.other);
+  for (const RigidGroup::Link& l : g.links) R -= l.A * total(l.other);
   return R;
 }
 
@@ -373,7 +399,8 @@ void MultilevelMean::relax(int i) {
     add_force(from.parent, group_in_group(from.centre - group(from.parent).centre).transpose() * q);
   };
   pass_on(g, -options_.over_correction * R);
-  for (const Link& l : g.links) pass_on(group(l.other), -options_.over_correction * (l.A.transpose() * step));
+  for (const RigidGroup::Link& l : g.links)
+    pass_on(group(l.other), -options_.over_correction * (l.A.transpose() * step));
 }
 
 /// The best place for one landmark, all others given.
@@ -399,20 +426,23 @@ void MultilevelMean::relax_landmarks(InformationState& state, int i) {
   }
 }
 
-/// The active landmarks go where their groups have gone, and the robot with them.
-void MultilevelMean::carry_window(InformationState& state) {
+/// The active landmarks go where their groups have gone, and the robot with them. False, with nothing moved,
+/// if the robot's block is not positive definite.
+bool MultilevelMean::carry_window(InformationState& state) {
+  const auto Omega = state.Omega();
+  const Eigen::LLT<Eigen::Matrix3d> Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
+  if (Omega_xx.info() != Eigen::Success) return false;
   auto step = window_step(state);
   for (int p = 0; p < state.active_count(); ++p) {
     const Eigen::Vector2d d = missing(state.active(p));
     member(state.active(p)).stored += d;
     step.segment<2>(InformationState::row_of(p)) = d;
   }
-  const auto Omega = state.Omega();
   const auto landmarks = Omega.rows() - 3;
-  const Eigen::LLT<Eigen::Matrix3d> Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
   const Eigen::Vector3d pulled = Omega.topRows<3>().rightCols(landmarks) * step.tail(landmarks);
   step.head<3>() = -Omega_xx.solve(pulled);
   state.move_window(step);
+  return true;
 }
 
 bool MultilevelMean::correct(InformationState& state) {
@@ -426,7 +456,7 @@ bool MultilevelMean::correct(InformationState& state) {
     std::size_t& turn = turn_[static_cast<std::size_t>(level - 1)];
     for (int k = 0; k < options_.other_groups; ++k) relax(next_of(all, turn));
   }
-  carry_window(state);
+  if (!carry_window(state)) return false;
   gather_groups_of_window(state);
   for (int k = 0; k < options_.relaxed_groups; ++k) {
     relax_landmarks(state, k == 0 ? next_of(near_, near_turn_) : next_of(levels_.front(), any_turn_));
@@ -441,7 +471,8 @@ bool MultilevelMean::correct(InformationState& state) {
 std::size_t MultilevelMean::memory_bytes() const {
   std::size_t bytes = groups_.memory_bytes() + members_.memory_bytes();
   for (const ChunkedArray<int>& level : levels_) bytes += level.memory_bytes();
-  for (std::size_t i = 0; i < groups_.size(); ++i) bytes += groups_[i].links.capacity() * sizeof(Link);
+  for (std::size_t i = 0; i < groups_.size(); ++i)
+    bytes += groups_[i].links.capacity() * sizeof(RigidGroup::Link);
   return bytes;
 }
 

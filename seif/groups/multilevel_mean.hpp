@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "seif/chunked_array.hpp"
+#include "seif/groups/rigid_group.hpp"
 #include "seif/information_state.hpp"
 
 namespace seif {
@@ -48,8 +49,9 @@ class MultilevelMean {
 
   /// Before and after a scan's information is added; all known landmarks that it sees are active both times.
   /// What the groups know of each other changes by the difference.
-  void before_information(const InformationState& state);
-  void after_information(const InformationState& state);
+  /// False if the robot's block is not positive definite.
+  [[nodiscard]] bool before_information(const InformationState& state);
+  [[nodiscard]] bool after_information(const InformationState& state);
 
   /// The mean of robot and active landmarks given that of the others. False, with nothing changed, if the
   /// window's Omega is not positive definite.
@@ -67,35 +69,8 @@ class MultilevelMean {
   std::size_t memory_bytes() const;
 
  private:
-  struct Link {
-    int other;          // a group of the same level
-    Eigen::Matrix3d A;  // (3 x 3) rows: this one; columns: the other
-  };
-  struct Group {
-    int level = 1;
-    int parent = -1;
-    int members = 0;                                   // [-] landmarks or groups
-    int first_member = -1;                             // slot; level 1 only
-    Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // p_world [m], of the first mean of the first member
-    Eigen::Vector3d d = Eigen::Vector3d::Zero();       // all its own motion so far [m, m, rad]
-    Eigen::Vector3d S = Eigen::Vector3d::Zero();       // R = S - A total, the sum over itself and its links
-    Eigen::Vector3d q = Eigen::Vector3d::Zero();       // forces not yet in S, nor passed on to the parent
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    std::vector<Link> links;
-    double residual = 0.0;  // R' A^-1 R when last touched
-    int visit = 0;          // mark of the last walk that came by
-    bool has_forces = false;
-    // total() of the group, and of which count of motions.
-    Eigen::Vector3d cached_total = Eigen::Vector3d::Zero();
-    std::int64_t cached_at = -1;
-  };
-  struct Member {
-    int group = -1;
-    int next = -1;                                    // slot of the next landmark of the group
-    Eigen::Vector2d lever = Eigen::Vector2d::Zero();  // from the centre of its group [m]
-    Eigen::Vector2d stored =
-        Eigen::Vector2d::Zero();  // the part of its groups' motion in its stored mean [m]
-  };
+  using Group = RigidGroup;
+  using Member = GroupMember;
 
   Group& group(int i) { return groups_[static_cast<std::size_t>(i)]; }
   const Group& group(int i) const { return groups_[static_cast<std::size_t>(i)]; }
@@ -116,6 +91,10 @@ class MultilevelMean {
   void add_force(int i, const Eigen::Vector3d& q);
   void add_force_of(int slot, const Eigen::Vector2d& f);
   void pass_forces_on();
+  void gather_change(const InformationState& state);
+  void add_change_to_groups();
+  void shift_change_to_parents();
+  void sum_change_by_parent();
   void add_information(int i, int j, const Eigen::Matrix3d& A);
   Eigen::Matrix3d& link(int i, int j);
 
@@ -124,7 +103,7 @@ class MultilevelMean {
   void note_residual(int i, double residual);
   void relax_landmarks(InformationState& state, int i);
   void relax_landmark(InformationState& state, int slot);
-  void carry_window(InformationState& state);
+  [[nodiscard]] bool carry_window(InformationState& state);
   /// (w x 1) of what step_ has room for.
   Eigen::VectorXd::SegmentReturnType window_step(const InformationState& state);
 
@@ -137,8 +116,8 @@ class MultilevelMean {
   std::vector<std::vector<int>> have_forces_;  // groups, by level - 1
   std::size_t near_turn_ = 0;
   std::size_t any_turn_ = 0;
-  std::vector<int> near_;   // the groups of one level that hold the window
-  std::vector<int> place_;  // by position in the window, or by group of the level below: where it is in near_
+  std::vector<int> near_;           // the groups of one level that hold the window
+  std::vector<int> index_in_near_;  // by position in the window, or by group of the level below
   int visit_ = 0;
   std::int64_t motions_ = 0;
   double residual_ = 0.0;

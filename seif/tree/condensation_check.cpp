@@ -5,64 +5,91 @@
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
+namespace {
+
+using Broken = std::optional<std::string>;
+
+template <class... Parts>
+Broken broken(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+/// Whether the message eliminates a variable, keeps it in its boundary, or ties it to a group.
+bool takes_in(const Condensed& message, FrontVariable variable) {
+  const auto is_it = [&](const auto& other) { return other.variable == variable; };
+  return std::ranges::count(message.eliminated, variable) > 0 ||
+         std::ranges::any_of(message.boundary, is_it) || std::ranges::any_of(message.tied, is_it);
+}
+
+/// How often the message eliminates or ties a variable.
+std::ptrdiff_t times_settled(const Condensed& message, FrontVariable variable) {
+  const auto is_it = [&](const Condensed::Tie& tie) { return tie.variable == variable; };
+  return std::ranges::count(message.eliminated, variable) + std::ranges::count_if(message.tied, is_it);
+}
+
+}  // namespace
 
 std::optional<std::string> CondensationTree::broken_invariant(const InformationState& state) const {
-  const auto broken = [](auto... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return std::optional(text.str());
-  };
   for (int h = 0; h < zone_.size(); ++h) {
     const int slot = zone_.slot(h);
     if (place(slot).hot != h) return broken("landmark ", slot, " does not know its place in the zone");
     if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
   }
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    const Place& p = place(slot);
-    const bool is_hot = node(p.leaf).hot;
-    if (is_hot != (p.hot != none))
-      return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
-    if (is_hot) continue;
-    if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
-    const Condensed& message = sent(p.settled_at).message;
-    const auto is_it = [&](const Condensed::Tie& tie) { return tie.variable == slot; };
-    if (std::ranges::count(message.eliminated, slot) + std::ranges::count_if(message.tied, is_it) != 1)
-      return broken("landmark ", slot, " is not settled at node ", p.settled_at);
+    if (Broken wrong = broken_landmark(state, slot)) return wrong;
   }
   for (int i = 0; i < tree_.size(); ++i) {
-    const Condensed& message = sent(i).message;
-    if (node(i).hot && i != tree_.hub() && message.blocks() > 0)
-      return broken("hot leaf ", i, " has a message");
-    int next = tree_.towards(i);
-    while (next != none && sent(next).is_bare) next = tree_.towards(next);
-    for (const Condensed::Member& m : message.boundary) {
-      if (next == none) continue;
-      const Condensed& later = sent(next).message;
-      const auto is_it = [&](const auto& other) { return other.variable == m.variable; };
-      if (!std::ranges::count(later.eliminated, m.variable) && std::ranges::none_of(later.boundary, is_it) &&
-          std::ranges::none_of(later.tied, is_it)) {
-        return broken("node ", next, " does not take in ", m.variable, " of node ", i);
-      }
-    }
-    for (const FrontVariable v : message.eliminated) {
-      if (settled_at(v) != i)
-        return broken("variable ", v, " is eliminated at node ", i, ", and settled elsewhere");
-    }
-    for (const int g : sent(i).groups) {
-      const auto inside = [&](int leaf) { return tree_.is_within(leaf, g); };
-      const auto used_in = [&](int leaf) {
-        return inside(leaf) && std::ranges::find(changed_, leaf) == changed_.end();
-      };
-      if (std::ranges::any_of(hot_leaves_, used_in)) return broken("group ", g, " in node ", i, " is hot");
-      if (node(g).group.fronts <= 0) return broken("group ", g, " is counted wrong");
-      const auto is_beside = [&](FrontVariable v) {
-        return node_of(v) != g && tree_.is_within(node_of(v), g);
-      };
-      if (std::ranges::any_of(message.eliminated, is_beside) ||
-          std::ranges::any_of(message.boundary, is_beside, &Condensed::Member::variable))
-        return broken("node ", i, " has landmarks beside their group ", g);
+    if (Broken wrong = broken_message(i)) return wrong;
+    for (const int group : sent(i).groups) {
+      if (Broken wrong = broken_group(group, i)) return wrong;
     }
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> CondensationTree::broken_landmark(const InformationState& state, int slot) const {
+  const CondensedLandmark& p = place(slot);
+  const bool is_hot = node(p.leaf).hot;
+  if (is_hot != (p.hot != none)) return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
+  if (is_hot) return std::nullopt;
+  if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
+  if (times_settled(sent(p.settled_at).message, slot) != 1)
+    return broken("landmark ", slot, " is not settled at node ", p.settled_at);
+  return std::nullopt;
+}
+
+std::optional<std::string> CondensationTree::broken_message(int i) const {
+  const Condensed& message = sent(i).message;
+  if (node(i).hot && i != tree_.hub() && message.blocks() > 0)
+    return broken("hot leaf ", i, " has a message");
+  int next = tree_.towards(i);
+  while (next != none && sent(next).is_bare) next = tree_.towards(next);
+  for (const Condensed::Member& m : message.boundary) {
+    if (next != none && !takes_in(sent(next).message, m.variable))
+      return broken("node ", next, " does not take in ", m.variable, " of node ", i);
+  }
+  for (const FrontVariable v : message.eliminated) {
+    if (settled_at(v) != i)
+      return broken("variable ", v, " is eliminated at node ", i, ", and settled elsewhere");
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> CondensationTree::broken_group(int group, int i) const {
+  const Condensed& message = sent(i).message;
+  const auto is_used_in = [&](int leaf) {
+    return tree_.is_within(leaf, group) && std::ranges::find(changed_, leaf) == changed_.end();
+  };
+  if (std::ranges::any_of(hot_leaves_, is_used_in)) return broken("group ", group, " in node ", i, " is hot");
+  if (node(group).group.fronts <= 0) return broken("group ", group, " is counted wrong");
+  const auto is_beside = [&](FrontVariable v) {
+    return node_of(v) != group && tree_.is_within(node_of(v), group);
+  };
+  if (std::ranges::any_of(message.eliminated, is_beside) ||
+      std::ranges::any_of(message.boundary, is_beside, &Condensed::Member::variable))
+    return broken("node ", i, " has landmarks beside their group ", group);
   return std::nullopt;
 }
 

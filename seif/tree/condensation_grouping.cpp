@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
@@ -101,7 +102,7 @@ void CondensationTree::tie_front(const InformationState& state, int at, SentMess
   note_reach(at, next);
 }
 
-/// The levers are those of the Jacobians (InformationState::use_first_estimates): Omega knows nothing of
+/// The levers are those of the Jacobians (FirstEstimates): Omega knows nothing of
 /// moving all along these, and they are the same whenever a landmark is tied.
 void CondensationTree::tie(const InformationState& state, std::size_t index, int target,
                            std::vector<int>& groups) {
@@ -117,7 +118,7 @@ void CondensationTree::tie(const InformationState& state, std::size_t index, int
   }
   const FrontVariable v = front_.variables()[index].variable;
   const Eigen::Vector2d at =
-      is_group(v) ? Eigen::Vector2d(node(~v).group.centre) : state.linearisation_point(v);
+      is_group(v) ? Eigen::Vector2d(node(~v).group.centre) : linearisation_point(state, v);
   front_.tie(index, group_variable(target), at - group.centre);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
@@ -12,7 +13,7 @@ Eigen::Vector2d CondensationTree::zone_middle(const Pose2& pose) const {
 
 void CondensationTree::note_travel(const InformationState& state) {
   constexpr double kept = 0.95;  // of it, at an update that goes less far
-  const Eigen::Vector2d now = zone_middle(state.linearisation_pose());
+  const Eigen::Vector2d now = zone_middle(linearisation_pose(state));
   if (scan_ > 1) travel_ = std::max((now - last_middle_).norm(), kept * travel_);
   last_middle_ = now;
 }
@@ -41,11 +42,11 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
   for (const int slot : slots) want(place(slot).leaf);
   for (const int slot : wanted_) want(place(slot).leaf);
-  const std::optional<Pose2> elsewhere = state.other_linearisation_pose();
+  const std::optional<Pose2> elsewhere = other_linearisation_pose(state);
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once
     // Leaves stay where their landmarks first were, however a closure has bent the map since.
-    tree_.for_each_leaf_near(zone_middle(state.linearisation_pose()), views * view_, want);
+    tree_.for_each_leaf_near(zone_middle(linearisation_pose(state)), views * view_, want);
     if (elsewhere) tree_.for_each_leaf_near(zone_middle(*elsewhere), views * view_, want);
   };
   want_near(options_.look_ahead);

@@ -153,18 +153,20 @@ bool CondensationTree::solve_window(InformationState& state) {
     M_.resize(2 * w, 2 * w);
     step_.resize(2 * w);
     change_.resize(2 * w);
+    factor_.storage.resize(2 * w, 2 * w);
   }
   auto M = M_.topLeftCorner(w, w);
   M = state.Omega();
   add_condensed(state, M);
-  auto L = state.work();
+  factor_.size = w;
+  auto L = factor_.L();
   L = M;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(L);
   if (llt.info() != Eigen::Success) return false;
   auto d = step_.head(w);
   d = state.r();
   llt.solveInPlace(d);
-  lowered_ = state.r().dot(d);
+  factor_.chi_square_drop = state.r().dot(d);
   auto dr = change_.head(w);
   dr.noalias() = M * d;
   state.move_window(d, dr);
@@ -200,7 +202,7 @@ void CondensationTree::covariance(const InformationState& state, std::span<const
     }
     col += 2;
   }
-  state.work().triangularView<Eigen::Lower>().solveInPlace(Y);
+  factor_.L().triangularView<Eigen::Lower>().solveInPlace(Y);
   out.noalias() = Y.transpose() * Y;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     for (std::size_t j = 0; j < slots.size(); ++j) {

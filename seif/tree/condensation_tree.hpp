@@ -27,6 +27,7 @@
 #include "seif/tree/condensation_nodes.hpp"
 #include "seif/tree/hot_zone.hpp"
 #include "seif/tree/leaf_tree.hpp"
+#include "seif/window_factor.hpp"
 
 namespace seif {
 
@@ -67,8 +68,8 @@ class CondensationTree {
   /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
   [[nodiscard]] bool solve_window(InformationState& state);
 
-  /// [-] r' Omega^-1 r of the last solve_window(): by how much its step has lowered the squared error.
-  double lowered() const { return lowered_; }
+  /// Of the last solve_window().
+  const WindowFactor& window_factor() const { return factor_; }
 
   /// After these have been dropped from the window.
   [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
@@ -88,7 +89,7 @@ class CondensationTree {
     for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
   }
   /// Of [pose | landmarks] by all that is known, (Omega + S)^-1 and how those that are not active follow, to
-  /// `out` (3+2m x 3+2m). Takes the factor that solve_window() leaves in the state's work().
+  /// `out` (3+2m x 3+2m).
   void covariance(const InformationState& state, std::span<const int> slots,
                   Eigen::Ref<Eigen::MatrixXd> out) const;
 
@@ -141,6 +142,11 @@ class CondensationTree {
       }
     });
   }
+
+  // What is wrong with one part, if anything is.
+  std::optional<std::string> broken_landmark(const InformationState& state, int slot) const;
+  std::optional<std::string> broken_message(int at) const;
+  std::optional<std::string> broken_group(int group, int at) const;
 
   // Planning.
   Eigen::Vector2d zone_middle(const Pose2& pose) const;
@@ -244,7 +250,7 @@ class CondensationTree {
   Eigen::MatrixXd M_;            // (w x w), with room to grow
   Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
   Eigen::VectorXd step_, change_;              // (w), with room to grow
-  double lowered_ = 0.0;                       // [-]
+  WindowFactor factor_;
   std::int64_t blocks_touched_ = 0, waited_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace render {
 
 namespace {
 
-constexpr int width = 1024;        // [px]
+constexpr int atlas_width = 1024;  // [px]
 constexpr int most_height = 8192;  // [px]
 
 }  // namespace
@@ -24,7 +24,7 @@ GlyphAtlas::GlyphAtlas(const Gl& gl) : gl_(gl) {
 void GlyphAtlas::grow() {
   if (height_ >= most_height) throw std::runtime_error("text of too many sizes");
   height_ = std::max(256, 2 * height_);
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height_));
+  pixels_.resize(static_cast<std::size_t>(atlas_width) * static_cast<std::size_t>(height_));
 }
 
 const AtlasGlyph& GlyphAtlas::glyph(char32_t character, Weight weight, float size, int phase) {
@@ -32,8 +32,8 @@ const AtlasGlyph& GlyphAtlas::glyph(char32_t character, Weight weight, float siz
   AtlasGlyph& placed = found->second;
   if (!is_new) return placed;
   const Glyph glyph = rasterised(character, weight, size, static_cast<float>(phase) / phases);
-  if (glyph.width > width) throw std::runtime_error("a letter is too large");
-  if (pen_x_ + glyph.width > width) {
+  if (glyph.width > atlas_width) throw std::runtime_error("a letter is too large");
+  if (pen_x_ + glyph.width > atlas_width) {
     pen_x_ = 0;
     pen_y_ += row_height_;
     row_height_ = 0;
@@ -42,7 +42,7 @@ const AtlasGlyph& GlyphAtlas::glyph(char32_t character, Weight weight, float siz
   placed = {pen_x_, pen_y_, glyph.left, glyph.top, glyph.width, glyph.height};
   for (int row = 0; row < glyph.height; ++row) {
     std::copy_n(glyph.cover.begin() + row * glyph.width, glyph.width,
-                pixels_.begin() + static_cast<std::ptrdiff_t>(pen_y_ + row) * width + pen_x_);
+                pixels_.begin() + static_cast<std::ptrdiff_t>(pen_y_ + row) * atlas_width + pen_x_);
   }
   pen_x_ += glyph.width;
   row_height_ = std::max(row_height_, glyph.height);
@@ -54,7 +54,7 @@ void GlyphAtlas::bind() {
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
   if (!changed_) return;
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height_, 0, GL_RED, GL_UNSIGNED_BYTE, pixels_.data());
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas_width, height_, 0, GL_RED, GL_UNSIGNED_BYTE, pixels_.data());
   changed_ = false;
 }
 

@@ -5,21 +5,13 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <numbers>
-#include <string>
-#include <variant>
 #include <vector>
 
-namespace render {
+#include "sim/render/colour.hpp"
+#include "sim/render/overlay.hpp"
 
-/// sRGB, each in [0, 1]; alpha is not premultiplied.
-struct Colour {
-  float r = 0.0F;
-  float g = 0.0F;
-  float b = 0.0F;
-  float a = 1.0F;
-};
+namespace render {
 
 struct Camera {
   Eigen::Vector3d eye = {0.0, -10.0, 10.0};          // p_world [m]
@@ -107,50 +99,6 @@ struct View {
   Camera camera;
   Things things;  // seen in this view alone
 };
-
-// The overlay. [px] everywhere.
-
-struct Rectangle {
-  Eigen::Vector2f min = Eigen::Vector2f::Zero();
-  Eigen::Vector2f max = Eigen::Vector2f::Zero();
-  Colour colour;
-};
-
-enum class Align { left, centre, right };
-enum class Weight { regular, bold };
-
-/// One line of UTF-8 text; what the font does not have shows as a box.
-struct Text {
-  Eigen::Vector2f position = Eigen::Vector2f::Zero();  // where its baseline begins, is centred, or ends
-  float size = 14.0F;                                  // of the em
-  Align align = Align::left;
-  Weight weight = Weight::regular;
-  Colour colour;
-  std::string text;
-};
-
-struct Polyline {
-  std::vector<Eigen::Vector2f> points;
-  float width = 1.5F;
-  Colour colour;
-};
-
-/// What lies between two curves over the same x.
-struct Band {
-  std::vector<Eigen::Vector3f> points;  // x, y of the one, y of the other
-  Colour colour;
-};
-
-/// A picture of square cells with sharp edges.
-struct Raster {
-  Eigen::Vector2f min = Eigen::Vector2f::Zero();
-  Eigen::Vector2f max = Eigen::Vector2f::Zero();
-  int columns = 0;                 // [-]
-  int rows = 0;                    // [-]
-  std::vector<std::uint8_t> rgba;  // (rows x columns x 4) from the top
-};
-
-using OverlayItem = std::variant<Rectangle, Text, Polyline, Band, Raster>;
 
 /// An image in the making.
 struct Scene {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "floors.hpp"
+#include "includes.hpp"
 #include "rules.hpp"
 #include "sizes.hpp"
 #include "source.hpp"
@@ -48,6 +49,10 @@ TEST(Tree, ArrowsInHarnessRunDown) {
     std::ranges::copy(check_floors(source), std::back_inserter(findings));
   EXPECT_EQ(listed(findings), "");
   EXPECT_EQ(listed(check_top_of_harness(list_tree(SEIFBED_SOURCE_DIR))), "");
+}
+
+TEST(Tree, FilesIncludeTheStandardHeadersThatTheyUse) {
+  EXPECT_EQ(listed(check_standard_headers(tree_sources())), "");
 }
 
 TEST(Tree, HeadersAndFunctionsAreShort) {

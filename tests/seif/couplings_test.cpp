@@ -13,6 +13,7 @@
 #include "every_filter.hpp"
 #include "matrix_of.hpp"
 #include "ring_drive.hpp"
+#include "seif/full_state.hpp"
 
 namespace seif {
 namespace {
@@ -76,7 +77,7 @@ TEST(Couplings, AreTheRowsOfAStateWithLinksOfEveryKind) {
     std::vector<LandmarkId> ids;
     for (int slot = 0; slot < state.landmark_count(); ++slot) ids.push_back(state.id(slot));
     std::vector<Coupling> couplings;
-    for (const auto& [of, expected] : rows_of(oracle::symmetric(state.full_Omega()), ids)) {
+    for (const auto& [of, expected] : rows_of(oracle::symmetric(full_Omega(state)), ids)) {
       couplings_of(state, of, couplings);
       expect_equal(as_row(couplings), expected);
       if (of == no_landmark) {

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "seif/full_state.hpp"
+
 namespace seif::oracle {
 
 Eigen::MatrixXd symmetric(const Eigen::SparseMatrix<double>& lower) {
@@ -11,8 +13,8 @@ Eigen::MatrixXd symmetric(const Eigen::SparseMatrix<double>& lower) {
 }
 
 DenseBelief dense(const InformationState& state) {
-  DenseBelief belief{.H = symmetric(state.full_Omega()), .b = {}, .mu = state.full_mu()};
-  belief.b = state.full_r() + belief.H * belief.mu;
+  DenseBelief belief{.H = symmetric(full_Omega(state)), .b = {}, .mu = full_mu(state)};
+  belief.b = full_r(state) + belief.H * belief.mu;
   return belief;
 }
 
@@ -23,7 +25,7 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& M, const Eigen::VectorXd& v) { retu
 void recover_mean(DenseBelief& belief) { belief.mu = solve(belief.H, belief.b); }
 
 void recover_mean(InformationState& state) {
-  state.move_all(solve(symmetric(state.full_Omega()), state.full_r()));
+  move_all(state, solve(symmetric(full_Omega(state)), full_r(state)));
 }
 
 Pose2 pose_of(const DenseBelief& belief) { return {belief.mu(0), belief.mu(1), belief.mu(2)}; }

@@ -14,7 +14,8 @@
 #include "every_filter.hpp"
 #include "ring_drive.hpp"
 #include "seif/eseif.hpp"
-#include "seif/report_seif.hpp"
+#include "seif/full_state.hpp"
+#include "seif/plain_seif.hpp"
 #include "seif/seif.hpp"
 
 namespace seif {
@@ -27,11 +28,11 @@ using test::under_sanitizer;
 const InformationState& state_of(const Estimator& filter) {
   if (const auto* eseif = dynamic_cast<const Eseif*>(&filter)) return eseif->state();
   if (const auto* ours = dynamic_cast<const Seif*>(&filter)) return ours->state();
-  return dynamic_cast<const ReportSeif&>(filter).state();
+  return dynamic_cast<const PlainSeif&>(filter).state();
 }
 
 void expect_proper(const InformationState& state) {
-  const Eigen::SparseMatrix<double> lower = state.full_Omega();
+  const Eigen::SparseMatrix<double> lower = full_Omega(state);
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt(lower);
   EXPECT_EQ(llt.info(), Eigen::Success);
   const Eigen::MatrixXd Omega = oracle::symmetric(lower);

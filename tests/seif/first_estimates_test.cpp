@@ -9,7 +9,9 @@
 
 #include "dense_oracle.hpp"
 #include "driven_state.hpp"
+#include "seif/full_state.hpp"
 #include "seif/information_state.hpp"
+#include "seif/linearisation.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/motion_update.hpp"
 #include "seif/observation_factor.hpp"
@@ -75,7 +77,7 @@ void take_in(InformationState& state, const std::vector<Observation>& scan) {
     add(state, linearise(state, slot, z, T_robot_sensor));
     state.mark_seen(slot);
   }
-  state.update_first_estimates();
+  update_first_estimates(state);
 }
 
 /// The same filter written down densely, with covariances and an exact mean, so that xi = Omega mu.
@@ -191,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(SettledAfter, FirstEstimates, testing::Values(1, 3));
 TEST_P(FirstEstimates, EqualTheRuleWrittenDownDensely) {
   World world(7);
   InformationState state(vague_start);
-  state.use_first_estimates(GetParam());
+  state.first_estimates().settle_after(GetParam());
   DenseFirstEstimates dense{.settled_after = GetParam()};
   for (int k = 0; k < 30; ++k) {
     const Odometry u = world.advance();
@@ -200,8 +202,8 @@ TEST_P(FirstEstimates, EqualTheRuleWrittenDownDensely) {
     const std::vector<Observation> scan = world.scan();
     take_in(state, scan);
     dense.measurement(scan);
-    ASSERT_LT(relative(oracle::symmetric(state.full_Omega()), dense.Omega), 1e-9) << "step " << k;
-    ASSERT_LT((state.full_mu() - dense.mu).norm(), 1e-9) << "step " << k;
+    ASSERT_LT(relative(oracle::symmetric(full_Omega(state)), dense.Omega), 1e-9) << "step " << k;
+    ASSERT_LT((full_mu(state) - dense.mu).norm(), 1e-9) << "step " << k;
   }
   EXPECT_GT((dense.mu - dense.at).norm(), 1e-3);  // first estimates are not means
 }
@@ -209,7 +211,7 @@ TEST_P(FirstEstimates, EqualTheRuleWrittenDownDensely) {
 InformationState driven(unsigned seed, int steps, int first_estimates) {
   World world(seed);
   InformationState state(vague_start);
-  if (first_estimates > 0) state.use_first_estimates(first_estimates);
+  if (first_estimates > 0) state.first_estimates().settle_after(first_estimates);
   for (int k = 0; k < steps; ++k) {
     motion_update(state, world.advance());
     take_in(state, world.scan());
@@ -219,11 +221,11 @@ InformationState driven(unsigned seed, int steps, int first_estimates) {
 
 /// Where the steps linearise (3+2N x 1).
 Eigen::VectorXd linearisation_points(const InformationState& state) {
-  Eigen::VectorXd at = state.full_mu();
-  const Pose2 pose = state.linearisation_pose();
+  Eigen::VectorXd at = full_mu(state);
+  const Pose2 pose = linearisation_pose(state);
   at.head<3>() << pose.x, pose.y, pose.theta;
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    at.segment<2>(InformationState::row_of(slot)) = state.linearisation_point(slot);
+    at.segment<2>(InformationState::row_of(slot)) = linearisation_point(state, slot);
   }
   return at;
 }
@@ -245,13 +247,13 @@ double gained(const InformationState& state) {
   const Eigen::MatrixXd P = rigid_modes(at);
   const Eigen::MatrixXd P_start =
       rigid_modes(Eigen::Vector3d(vague_start.mean.x, vague_start.mean.y, vague_start.mean.theta));
-  const Eigen::Matrix3d now = P.transpose() * oracle::symmetric(state.full_Omega()) * P;
+  const Eigen::Matrix3d now = P.transpose() * oracle::symmetric(full_Omega(state)) * P;
   const Eigen::Matrix3d at_start = P_start.transpose() * vague_start.covariance.inverse() * P_start;
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(now, at_start).eigenvalues().maxCoeff();
 }
 
 double heading_variance(const InformationState& state) {
-  return oracle::inverse(oracle::symmetric(state.full_Omega()))(2, 2);
+  return oracle::inverse(oracle::symmetric(full_Omega(state)))(2, 2);
 }
 
 // Nothing observes where in the world the map lies, nor how it is turned. Motion noise takes away of what the
@@ -272,16 +274,16 @@ TEST(FirstEstimates, LearnNothingOfPlaceAndHeadingOfTheMapWhereJacobiansAtTheMea
 
 TEST(FirstEstimates, GaugeFreeSparsificationFloatsTheWindowByTheModesWhereItWasLinearised) {
   InformationState state = driven(3, 20, 1);
-  const Eigen::MatrixXd before = oracle::symmetric(state.full_Omega());
+  const Eigen::MatrixXd before = oracle::symmetric(full_Omega(state));
   std::vector<int> active;
   for (int position = 0; position < state.active_count(); ++position)
     active.push_back(state.active(position));
   const Eigen::MatrixXd at_points = oracle::floated(before, linearisation_points(state), active);
-  const Eigen::MatrixXd at_mean = oracle::floated(before, state.full_mu(), active);
+  const Eigen::MatrixXd at_mean = oracle::floated(before, full_mu(state), active);
   std::vector<int> dropped;
   choose_to_drop(state, DropOrder::least_recently_seen, state.active_count() - 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::gauge_free, dropped));
-  const Eigen::MatrixXd after = oracle::symmetric(state.full_Omega());
+  const Eigen::MatrixXd after = oracle::symmetric(full_Omega(state));
   EXPECT_LT(relative(after, oracle::sparsified(before, at_points, dropped)), 1e-8);  // inverses
   EXPECT_GT(relative(after, oracle::sparsified(before, at_mean, dropped)), 1e-6);
 }

@@ -199,15 +199,15 @@ TEST_P(Gate, RobustWeightsWeakenOutliersAndKeepThem) {
 }
 
 TEST(RobustWeight, IsOneOverTheDistanceInUnitsOfTheBound) {
-  EXPECT_EQ(times_above(100.0, 0.0), 1.0);
-  EXPECT_EQ(times_above(8.99, 3.0), 1.0);
-  EXPECT_EQ(times_above(36.0, 3.0), 2.0);
+  EXPECT_EQ(huber_excess(100.0, 0.0), 1.0);
+  EXPECT_EQ(huber_excess(8.99, 3.0), 1.0);
+  EXPECT_EQ(huber_excess(36.0, 3.0), 2.0);
 }
 
 TEST(GateOfSeif, NeedsTheTree) {
   SeifOptions options;
   options.gate = 9.0;
-  options.mean_recovery = SeifMean::multilevel;
+  options.mean_recovery = MeanRecovery::multilevel;
   EXPECT_THROW(Seif(setup(), options), std::invalid_argument);
   options.gate = 0.0;
   options.robust_above = 3.0;

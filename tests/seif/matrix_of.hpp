@@ -5,7 +5,8 @@
 #include "seif/dense/eif.hpp"
 #include "seif/dense/ekf.hpp"
 #include "seif/eseif.hpp"
-#include "seif/report_seif.hpp"
+#include "seif/full_state.hpp"
+#include "seif/plain_seif.hpp"
 #include "seif/seif.hpp"
 
 namespace seif::test {
@@ -13,12 +14,12 @@ namespace seif::test {
 /// The whole matrix that a filter keeps: Sigma of an `ekf`, Omega of any other.
 inline Eigen::MatrixXd matrix_of(const Estimator& filter) {
   if (const auto* seif = dynamic_cast<const Seif*>(&filter))
-    return oracle::symmetric(seif->state().full_Omega());
-  if (const auto* report = dynamic_cast<const ReportSeif*>(&filter)) {
-    return oracle::symmetric(report->state().full_Omega());
+    return oracle::symmetric(full_Omega(seif->state()));
+  if (const auto* report = dynamic_cast<const PlainSeif*>(&filter)) {
+    return oracle::symmetric(full_Omega(report->state()));
   }
   if (const auto* eseif = dynamic_cast<const Eseif*>(&filter)) {
-    return oracle::symmetric(eseif->state().full_Omega());
+    return oracle::symmetric(full_Omega(eseif->state()));
   }
   if (const auto* eif = dynamic_cast<const Eif*>(&filter)) return eif->Omega();
   return dynamic_cast<const Ekf&>(filter).Sigma();

@@ -9,7 +9,7 @@
 #include "ring_drive.hpp"
 #include "seif/dense/ekf.hpp"
 #include "seif/dense/symmetric_downdate.hpp"
-#include "seif/report_seif.hpp"
+#include "seif/plain_seif.hpp"
 #include "seif/seif.hpp"
 
 namespace seif {
@@ -49,7 +49,7 @@ BENCHMARK(ekf_update)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-void seif_report_update(benchmark::State& state) { update<ReportSeif>(state, ReportSeifOptions{}); }
+void seif_report_update(benchmark::State& state) { update<PlainSeif>(state, PlainSeifOptions{}); }
 BENCHMARK(seif_report_update)
     ->Arg(50)
     ->Arg(1000)
@@ -69,7 +69,7 @@ BENCHMARK(seif_update)
     ->Unit(benchmark::kMicrosecond);
 
 void seif_by_groups_update(benchmark::State& state) {
-  update<Seif>(state, SeifOptions{.mean_recovery = SeifMean::multilevel});
+  update<Seif>(state, SeifOptions{.mean_recovery = MeanRecovery::multilevel});
 }
 BENCHMARK(seif_by_groups_update)
     ->Arg(50)

@@ -8,6 +8,7 @@
 
 #include "dense_oracle.hpp"
 #include "driven_state.hpp"
+#include "seif/full_state.hpp"
 #include "seif/information_state.hpp"
 #include "seif/marginals.hpp"
 #include "seif/mean_recovery.hpp"
@@ -98,7 +99,7 @@ TEST_P(SeifSteps, SparsificationMatchesEquation50) {
   std::vector<int> dropped;
   choose_to_drop(state, DropOrder::weakest_link, 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::report, dropped));
-  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), oracle::sparsified(before, H0, dropped)),
+  EXPECT_LT(relative(oracle::symmetric(full_Omega(state)), oracle::sparsified(before, H0, dropped)),
             step_rounding);
 }
 
@@ -108,23 +109,23 @@ TEST_P(SeifSteps, ModifiedSparsificationMatchesEquation50WithTheMarginal) {
   std::vector<int> dropped;
   choose_to_drop(state, DropOrder::weakest_link, 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::modified, dropped));
-  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), oracle::sparsified(before, H0, dropped)),
+  EXPECT_LT(relative(oracle::symmetric(full_Omega(state)), oracle::sparsified(before, H0, dropped)),
             1e-8);  // inverses
 }
 
 TEST_P(SeifSteps, GaugeFreeSparsificationMatchesEquation50WithTheFloatedWindow) {
   const Eigen::MatrixXd before = oracle::dense(state).H;
-  const Eigen::MatrixXd H0 = oracle::floated(before, state.full_mu(), active_slots(state));
+  const Eigen::MatrixXd H0 = oracle::floated(before, full_mu(state), active_slots(state));
   std::vector<int> dropped;
   choose_to_drop(state, DropOrder::least_recently_seen, 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::gauge_free, dropped));
-  EXPECT_LT(relative(oracle::symmetric(state.full_Omega()), oracle::sparsified(before, H0, dropped)),
+  EXPECT_LT(relative(oracle::symmetric(full_Omega(state)), oracle::sparsified(before, H0, dropped)),
             1e-8);  // inverses
 }
 
 TEST_P(SeifSteps, ModifiedSparsificationKeepsTheUncertaintyOfThePoseWhereTheReportsRuleShrinksIt) {
   const auto log_det_pose = [](const InformationState& s) {
-    return std::log(oracle::inverse(oracle::symmetric(s.full_Omega())).topLeftCorner<3, 3>().determinant());
+    return std::log(oracle::inverse(oracle::symmetric(full_Omega(s))).topLeftCorner<3, 3>().determinant());
   };
   const double before = log_det_pose(state);
   InformationState by_report(start);
@@ -139,16 +140,16 @@ TEST_P(SeifSteps, ModifiedSparsificationKeepsTheUncertaintyOfThePoseWhereTheRepo
 }
 
 TEST_P(SeifSteps, SparsificationKeepsTheMeanAndClearsTheLinks) {
-  const Eigen::VectorXd mu = state.full_mu();
-  const Eigen::VectorXd r = state.full_r();
+  const Eigen::VectorXd mu = full_mu(state);
+  const Eigen::VectorXd r = full_r(state);
   const int active = state.active_count();
   std::vector<int> dropped;
   choose_to_drop(state, DropOrder::weakest_link, 3, dropped);
   ASSERT_TRUE(sparsify(state, SparsificationRule::report, dropped));
-  EXPECT_EQ(state.full_r(), r);  // (51): b~ - H~ mu = b - H mu
-  EXPECT_EQ(state.full_mu(), mu);
+  EXPECT_EQ(full_r(state), r);  // (51): b~ - H~ mu = b - H mu
+  EXPECT_EQ(full_mu(state), mu);
   EXPECT_EQ(state.active_count(), active - 3);
-  const Eigen::MatrixXd H = oracle::symmetric(state.full_Omega());
+  const Eigen::MatrixXd H = oracle::symmetric(full_Omega(state));
   for (const int slot : dropped) {
     EXPECT_EQ(state.position(slot), -1);
     EXPECT_TRUE(H.block(0, InformationState::row_of(slot), 3, 2).isZero(0.0));
@@ -158,7 +159,7 @@ TEST_P(SeifSteps, SparsificationKeepsTheMeanAndClearsTheLinks) {
 TEST_P(SeifSteps, SparsificationKeepsTheMarginalOfTheMap) {
   const auto map_covariance = [](const InformationState& s) {
     const auto n = 2 * s.landmark_count();
-    return Eigen::MatrixXd(oracle::inverse(oracle::symmetric(s.full_Omega())).bottomRightCorner(n, n));
+    return Eigen::MatrixXd(oracle::inverse(oracle::symmetric(full_Omega(s))).bottomRightCorner(n, n));
   };
   const Eigen::MatrixXd before = map_covariance(state);
   std::vector<int> dropped;
@@ -177,9 +178,9 @@ TEST_P(SeifSteps, MarginalisingTheRobotOutKeepsTheBeliefOverTheMap) {
   const DenseBelief after = oracle::dense(state);
   EXPECT_EQ(state.active_count(), 0);
   EXPECT_TRUE(after.H.topRows(3).isZero(0.0));
-  EXPECT_TRUE(state.full_r().head<3>().isZero(0.0));
+  EXPECT_TRUE(full_r(state).head<3>().isZero(0.0));
   const Eigen::MatrixXd H_mm = after.H.bottomRightCorner(n, n);
-  const Eigen::VectorXd map_mean = after.mu.tail(n) + oracle::solve(H_mm, state.full_r().tail(n));
+  const Eigen::VectorXd map_mean = after.mu.tail(n) + oracle::solve(H_mm, full_r(state).tail(n));
   EXPECT_LT(relative(oracle::inverse(H_mm), Sigma.bottomRightCorner(n, n)), 1e-8);  // inverses
   EXPECT_LT((map_mean - before.mu.tail(n)).norm(), 1e-9);
 }
@@ -187,9 +188,9 @@ TEST_P(SeifSteps, MarginalisingTheRobotOutKeepsTheBeliefOverTheMap) {
 TEST_P(SeifSteps, CoordinateDescentReachesTheExactMeanIfRepeated) {
   DenseBelief belief = oracle::dense(state);
   oracle::recover_mean(belief);
-  const double error = (state.full_mu() - belief.mu).norm();
+  const double error = (full_mu(state) - belief.mu).norm();
   ASSERT_GT(error, 1e-4);
-  const auto energy = [&] { return state.full_r().dot(oracle::solve(belief.H, state.full_r())); };
+  const auto energy = [&] { return full_r(state).dot(oracle::solve(belief.H, full_r(state))); };
   double last = energy();
   for (int sweep = 0; sweep < 2'000; ++sweep) {  // relaxation is slow; only the way is tested here
     ASSERT_TRUE(coordinate_descent(state, 20, random.random));
@@ -198,14 +199,14 @@ TEST_P(SeifSteps, CoordinateDescentReachesTheExactMeanIfRepeated) {
     ASSERT_LE(now, last * (1 + 1e-9));  // each step goes down, Lemma 4
     last = now;
   }
-  EXPECT_LT((state.full_mu() - belief.mu).norm(), 0.1 * error);
+  EXPECT_LT((full_mu(state) - belief.mu).norm(), 0.1 * error);
 }
 
 TEST_P(SeifSteps, SolvingForTheMeanGivesThatOfTheDenseInverse) {
   DenseBelief belief = oracle::dense(state);
   oracle::recover_mean(belief);
   ASSERT_TRUE(solve_mean(state));
-  EXPECT_LT((state.full_mu() - belief.mu).norm(), 1e-9);
+  EXPECT_LT((full_mu(state) - belief.mu).norm(), 1e-9);
 }
 
 TEST_P(SeifSteps, MovingTheMeanKeepsTheInformationVector) {
@@ -218,7 +219,7 @@ TEST_P(SeifSteps, MovingTheMeanKeepsTheInformationVector) {
 }
 
 TEST_P(SeifSteps, MarginalsAreBlocksOfTheDenseInverse) {
-  const Eigen::MatrixXd Sigma = oracle::inverse(oracle::symmetric(state.full_Omega()));
+  const Eigen::MatrixXd Sigma = oracle::inverse(oracle::symmetric(full_Omega(state)));
   std::vector<LandmarkId> landmarks;
   for (int slot = 0; slot < state.landmark_count(); ++slot) landmarks.push_back(state.id(slot));
   const auto marginals = marginals_of(state, landmarks);
@@ -256,7 +257,7 @@ TEST_P(SeifSteps, MarginalsOfAFewLandmarksAreNothingWhereOmegaIsIndefinite) {
 }
 
 TEST_P(SeifSteps, LinkCountIsThatOfTheDenseMatrix) {
-  const Eigen::MatrixXd H = oracle::symmetric(state.full_Omega());
+  const Eigen::MatrixXd H = oracle::symmetric(full_Omega(state));
   int links = 0;
   for (int i = 0; i < state.landmark_count(); ++i) {
     const int row = InformationState::row_of(i);
@@ -273,7 +274,7 @@ TEST(SeifSteps, StaysSymmetricAndPositiveDefiniteOverManyUpdates) {
   InformationState state(start);
   drive(state, random, 2000);
   EXPECT_LT(relative(state.Omega().transpose(), state.Omega()), 1e-14);
-  EXPECT_EQ(oracle::symmetric(state.full_Omega()).llt().info(), Eigen::Success);
+  EXPECT_EQ(oracle::symmetric(full_Omega(state)).llt().info(), Eigen::Success);
   EXPECT_LE(state.active_count(), 5);
 }
 

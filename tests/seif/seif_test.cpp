@@ -12,7 +12,7 @@ namespace {
 using test::RingDrive;
 
 /// Mean number of blocks touched by an update at the end of one round, of some drives.
-double blocks_touched(int landmarks, SeifMean mean) {
+double blocks_touched(int landmarks, MeanRecovery mean) {
   const int drives = 4;
   const int measured = 400;
   std::int64_t blocks = 0;
@@ -31,7 +31,7 @@ double blocks_touched(int landmarks, SeifMean mean) {
 // that is some levels more.
 TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
   if (test::under_sanitizer) GTEST_SKIP() << "the counts are those of other builds, and take minutes here";
-  for (const SeifMean mean : {SeifMean::tree, SeifMean::multilevel}) {
+  for (const MeanRecovery mean : {MeanRecovery::tree, MeanRecovery::multilevel}) {
     EXPECT_NEAR(blocks_touched(20'000, mean) / blocks_touched(1'000, mean), 1.0, 0.15);
   }
 }
@@ -39,7 +39,7 @@ TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
 // Whichever mean.
 TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
-  for (const SeifMean mean : {SeifMean::tree, SeifMean::multilevel}) {
+  for (const MeanRecovery mean : {MeanRecovery::tree, MeanRecovery::multilevel}) {
     RingDrive drive(300, 4);
     Seif filter(drive.setup(), {.mean_recovery = mean});
     // Some rounds, until every message of the tree has once been as large as it gets.
@@ -56,8 +56,8 @@ TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
 
 TEST(Seif, ReportsNoErrorOfTheMeanWhereTheMeanIsExact) {
   RingDrive drive(60, 5);
-  Seif exact(drive.setup(), {.mean_recovery = SeifMean::exact});
-  Seif multilevel(drive.setup(), {.mean_recovery = SeifMean::multilevel});
+  Seif exact(drive.setup(), {.mean_recovery = MeanRecovery::exact});
+  Seif multilevel(drive.setup(), {.mean_recovery = MeanRecovery::multilevel});
   for (int k = 0; k < drive.steps_for_a_round(); ++k) {
     drive.step(exact);
     multilevel.motion_update(drive.odometry());

@@ -17,6 +17,7 @@
 #include "allocation_counter.hpp"
 #include "seif/dense/ekf.hpp"
 #include "seif/dense_oracle.hpp"
+#include "seif/full_state.hpp"
 #include "seif/path_drive.hpp"
 #include "seif/ring_drive.hpp"
 #include "seif/seif.hpp"
@@ -27,8 +28,8 @@ namespace {
 using test::ignore;
 using test::RingDrive;
 
-std::unique_ptr<AssociableFilter> named_filter(const std::string& type, const EstimatorSetup& setup,
-                                               const SeifOptions& options = {}) {
+std::unique_ptr<Estimator> named_filter(const std::string& type, const EstimatorSetup& setup,
+                                        const SeifOptions& options = {}) {
   if (type == "ekf") return std::make_unique<Ekf>(setup);
   return std::make_unique<Seif>(setup, options);
 }
@@ -192,7 +193,7 @@ TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
     const auto n = static_cast<Eigen::Index>(3 + 2 * ids.size());
     Eigen::MatrixXd P(n, n);
     filter.covariance_with(ids, P);
-    const Eigen::MatrixXd all = oracle::symmetric(filter.state().full_Omega()).inverse();
+    const Eigen::MatrixXd all = oracle::symmetric(full_Omega(filter.state())).inverse();
     Eigen::VectorXi rows(n);
     rows.head<3>() << 0, 1, 2;
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -251,9 +252,12 @@ TEST_P(Equate, ConditionsTheBelief) {
 // As the rest of seif: the same work and no allocation in a map of any size.
 
 /// Counts what the filter itself allocates while it takes in motions and scans, for its tree may still grow.
-class Metered final : public AssociableFilter {
+class Metered final : public Estimator, public LocalBelief {
  public:
-  Metered(const EstimatorSetup& setup, long& allocated) : seif_(setup, {}), allocated_(allocated) {}
+  Metered(const EstimatorSetup& setup, long& allocated)
+      : seif_(setup, {}), belief_(*seif_.local_belief()), allocated_(allocated) {}
+
+  LocalBelief* local_belief() override { return this; }
 
   void motion_update(const Odometry& odometry) override {
     meter([&] { seif_.motion_update(odometry); });
@@ -262,24 +266,24 @@ class Metered final : public AssociableFilter {
     meter([&] { seif_.measurement_update(scan, done); });
   }
   void begin_association(double t) override {
-    meter([&] { seif_.begin_association(t); });
+    meter([&] { belief_.begin_association(t); });
   }
-  void landmarks_at_hand(std::vector<LandmarkId>& out) const override { seif_.landmarks_at_hand(out); }
-  bool is_at_hand(LandmarkId landmark) const override { return seif_.is_at_hand(landmark); }
+  void landmarks_at_hand(std::vector<LandmarkId>& out) const override { belief_.landmarks_at_hand(out); }
+  bool is_at_hand(LandmarkId landmark) const override { return belief_.is_at_hand(landmark); }
   Eigen::Vector2d mean_of(LandmarkId landmark) const override {
     Eigen::Vector2d mean;
-    meter([&] { mean = seif_.mean_of(landmark); });
+    meter([&] { mean = belief_.mean_of(landmark); });
     return mean;
   }
   ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override {
-    return seif_.expect(landmark, observation);
+    return belief_.expect(landmark, observation);
   }
   void covariance_with(std::span<const LandmarkId> landmarks,
                        Eigen::Ref<Eigen::MatrixXd> out) const override {
-    seif_.covariance_with(landmarks, out);
+    belief_.covariance_with(landmarks, out);
   }
-  void want(std::span<const LandmarkId> landmarks) override { seif_.want(landmarks); }
-  void equate(LandmarkId a, LandmarkId b) override { seif_.equate(a, b); }
+  void want(std::span<const LandmarkId> landmarks) override { belief_.want(landmarks); }
+  void equate(LandmarkId a, LandmarkId b) override { belief_.equate(a, b); }
   Pose2 pose() const override { return seif_.pose(); }
   Counts counts() const override { return seif_.counts(); }
   std::size_t memory_bytes() const override { return seif_.memory_bytes(); }
@@ -296,6 +300,7 @@ class Metered final : public AssociableFilter {
     allocated_ += allocations() - before;
   }
   Seif seif_;
+  LocalBelief& belief_;
   long& allocated_;
 };
 

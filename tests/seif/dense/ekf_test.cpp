@@ -7,6 +7,7 @@
 
 #include "seif/dense/symmetric_downdate.hpp"
 #include "seif/dense_oracle.hpp"
+#include "seif/full_state.hpp"
 #include "seif/measurement_update.hpp"
 #include "seif/motion_update.hpp"
 
@@ -70,8 +71,8 @@ TEST(Ekf, EqualsTheSeifWithoutSparsificationAndWithExactMean) {
       }
     }
     ASSERT_EQ(seif.active_count(), seif.landmark_count());
-    const Eigen::MatrixXd Sigma = oracle::inverse(oracle::symmetric(seif.full_Omega()));
-    EXPECT_LT((ekf.mu() - seif.full_mu()).norm(), 1e-6);
+    const Eigen::MatrixXd Sigma = oracle::inverse(oracle::symmetric(full_Omega(seif)));
+    EXPECT_LT((ekf.mu() - full_mu(seif)).norm(), 1e-6);
     EXPECT_LT((ekf.Sigma() - Sigma).norm(), 1e-6 * Sigma.norm());
   }
 }

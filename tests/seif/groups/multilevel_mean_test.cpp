@@ -10,6 +10,7 @@
 
 #include "seif/dense_oracle.hpp"
 #include "seif/driven_state.hpp"
+#include "seif/full_state.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/motion_update.hpp"
 #include "seif/observation_factor.hpp"
@@ -82,14 +83,14 @@ struct Mapper {
 
   /// The mean with all motions carried out (3+2N x 1).
   Eigen::VectorXd mu() const {
-    Eigen::VectorXd mu = state.full_mu();
+    Eigen::VectorXd mu = full_mu(state);
     for (int slot = 0; slot < state.landmark_count(); ++slot) {
       mu.segment<2>(InformationState::row_of(slot)) = mean.mean(state, slot);
     }
     return mu;
   }
 
-  Eigen::MatrixXd Omega() const { return oracle::symmetric(state.full_Omega()); }
+  Eigen::MatrixXd Omega() const { return oracle::symmetric(full_Omega(state)); }
   Eigen::VectorXd xi() const { return oracle::dense(state).b; }
   Eigen::VectorXd r() const { return xi() - Omega() * mu(); }  // at that mean
 
@@ -117,7 +118,7 @@ class AfterClosure : public testing::Test {
       drive.advance();
       mapper.update(drive.odometry(), drive.scan());
     }
-    ASSERT_GT((mapper.mu() - mapper.state.full_mu()).norm(), 1e-4);
+    ASSERT_GT((mapper.mu() - full_mu(mapper.state)).norm(), 1e-4);
   }
 
   RingDrive drive{160, 3};
@@ -265,8 +266,8 @@ TEST(MultilevelMean, TheResidualOfASingleGroupIsThatOfTheDenseMatrices) {
 void expect_exact_mean(int landmarks) {
   oracle::RandomDrive random(5);
   const EstimatorSetup setup{.start = test::start, .T_robot_sensor = {}, .random = std::mt19937_64(1)};
-  Seif multilevel(setup, {.mean_recovery = SeifMean::multilevel});
-  Seif exact(setup, {.mean_recovery = SeifMean::exact});
+  Seif multilevel(setup, {.mean_recovery = MeanRecovery::multilevel});
+  Seif exact(setup, {.mean_recovery = MeanRecovery::exact});
   Pose2 truth = test::start.mean;
   for (int k = 0; k < 100; ++k) {
     const Odometry u = random.odometry();
@@ -279,7 +280,7 @@ void expect_exact_mean(int landmarks) {
       filter->motion_update(u);
       filter->measurement_update(scan, test::ignore);
     }
-    ASSERT_LT((multilevel.state().full_mu() - exact.state().full_mu()).norm(), rounding);
+    ASSERT_LT((full_mu(multilevel.state()) - full_mu(exact.state())).norm(), rounding);
   }
   EXPECT_EQ(multilevel.map().size(), static_cast<std::size_t>(landmarks));
 }
@@ -291,8 +292,8 @@ TEST(MultilevelMean, OfAMapOfTwoLandmarksIsExact) { expect_exact_mean(2); }
 TEST(MultilevelMean, IsTheSameToTheBitTheSecondTime) {
   RingDrive drive_a(120, 9);
   RingDrive drive_b(120, 9);
-  Seif a(drive_a.setup(), {.mean_recovery = SeifMean::multilevel});
-  Seif b(drive_b.setup(), {.mean_recovery = SeifMean::multilevel});
+  Seif a(drive_a.setup(), {.mean_recovery = MeanRecovery::multilevel});
+  Seif b(drive_b.setup(), {.mean_recovery = MeanRecovery::multilevel});
   for (int k = 0; k < 2 * drive_a.steps_for_a_round(); ++k) {
     drive_a.step(a);
     drive_b.step(b);

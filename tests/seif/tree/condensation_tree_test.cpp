@@ -10,7 +10,10 @@
 
 #include "seif/dense_oracle.hpp"
 #include "seif/driven_state.hpp"
+#include "seif/full_state.hpp"
+#include "seif/linearisation.hpp"
 #include "seif/mean_recovery.hpp"
+#include "seif/measurement_steps.hpp"
 #include "seif/motion_update.hpp"
 #include "seif/observation_factor.hpp"
 #include "seif/path_drive.hpp"
@@ -26,10 +29,10 @@ using test::RingDrive;
 struct Twins {
   explicit Twins(const PoseEstimate& start, const CondensationOptions& options = {}, bool follows = false)
       : state(start), exact(start), tree(options, start.mean), exact_follows(follows) {
-    state.use_first_estimates(5);
-    exact.use_first_estimates(5);
-    state.note_sighting_sd(0.04);  // as RingDrive and PathDrive see
-    exact.note_sighting_sd(0.04);
+    state.first_estimates().settle_after(5);
+    exact.first_estimates().settle_after(5);
+    state.first_estimates().note_sighting_sd(0.04);  // as RingDrive and PathDrive see
+    exact.first_estimates().note_sighting_sd(0.04);
   }
 
   InformationState state;
@@ -50,8 +53,8 @@ struct Twins {
     solve();
     add_new(scan);
     solve();
-    state.update_first_estimates();
-    exact.update_first_estimates();
+    update_first_estimates(state);
+    update_first_estimates(exact);
     sparsify(theta_x, theta_max);
     solve();
     tree.end_update(state);
@@ -77,14 +80,9 @@ struct Twins {
   }
 
   static void add_known(InformationState& to, const Scan& scan) {
+    constexpr double closing_gate = 0.5;  // [-]
     std::vector<ObservationFactor> factors;
-    for (const Observation& z : scan.observations) {
-      const auto slot = to.find(z.landmark);
-      if (!slot || to.position(*slot) < 0) continue;
-      const Eigen::Vector2d seen_at = invert_observation(to.pose(), {}, z).p_world_landmark;
-      const bool closing = (seen_at - to.mean(*slot)).norm() > 0.5 * z.range;
-      factors.push_back(closing ? linearise_at_measurement(to, *slot, z, {}) : linearise(to, *slot, z, {}));
-    }
+    linearise_known(to, scan, {}, closing_gate, factors);
     for (const ObservationFactor& factor : factors) add(to, factor);
   }
 
@@ -110,20 +108,18 @@ struct Twins {
   }
 
   void follow() {
-    Eigen::VectorXd d = -exact.full_mu();
-    d.head<3>() += state.full_mu().head<3>();
+    Eigen::VectorXd d = -full_mu(exact);
+    d.head<3>() += full_mu(state).head<3>();
     d(2) = wrap_angle(d(2));
     for (int slot = 0; slot < state.landmark_count(); ++slot) {
       d.segment<2>(3 + 2 * slot) += tree.mean(state, slot);
     }
-    exact.move_all(d);
+    move_all(exact, d);
   }
 
   void sparsify(int theta_x, int theta_max) {
-    if (state.active_count() <= theta_max) return;
     std::vector<int> dropped;
-    choose_to_drop(state, DropOrder::least_recently_seen, state.active_count() - theta_x, dropped);
-    std::erase_if(dropped, [&](int slot) { return state.scans_since_seen(slot) == 0; });
+    choose_surplus(state, {.theta_x = theta_x, .theta_max = theta_max}, dropped);
     if (dropped.empty()) return;
     ASSERT_TRUE(seif::sparsify(state, SparsificationRule::gauge_free, dropped));
     ASSERT_TRUE(seif::sparsify(exact, SparsificationRule::gauge_free, dropped));
@@ -304,10 +300,10 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
       ASSERT_EQ(twins.tree.broken_invariant(twins.state), std::nullopt) << "update " << k;
       ASSERT_LT(largest(twins.exact.r()), residual_rounding) << "update " << k;
     }
-    most_left[seed % 2] = std::max(most_left[seed % 2], largest(twins.exact.full_r()));
+    most_left[seed % 2] = std::max(most_left[seed % 2], largest(full_r(twins.exact)));
     ASSERT_TRUE(twins.tree.solve_all(twins.state));
     twins.follow();
-    EXPECT_LT(largest(twins.exact.full_r()), residual_rounding);
+    EXPECT_LT(largest(full_r(twins.exact)), residual_rounding);
   }
   EXPECT_GT(most_left[1], 1e4 * residual_rounding);  // or there were no groups
   EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * residual_rounding);

@@ -17,7 +17,7 @@ namespace {
 
 using test::RingDrive;
 
-constexpr SeifOptions by_tree{.mean_recovery = SeifMean::tree};
+constexpr SeifOptions by_tree{.mean_recovery = MeanRecovery::tree};
 
 /// Adds the blocks touched by each update of the second round.
 void add_blocks_touched(int landmarks, int measured, unsigned seed, std::vector<std::int64_t>& blocks) {

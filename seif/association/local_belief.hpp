@@ -1,5 +1,4 @@
-// What finding out which landmark is seen asks of a filter with known correspondence: its belief over the
-// landmarks that can be told of in bounded work.
+// What data association asks of a filter: its belief over the landmarks near the robot, in bounded work.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,20 +6,23 @@
 #include <vector>
 
 #include "seif/association/association.hpp"
-#include "seif/estimator.hpp"
+#include "seif/types.hpp"
 
 namespace seif {
 
-class AssociableFilter : public Estimator {
+/// A filter that can tell offers this by Estimator::local_belief().
+class LocalBelief {
  public:
+  virtual ~LocalBelief() = default;
+
   /// Before the belief is asked for, after all motions. May throw NumericalFailure.
   virtual void begin_association(double t) = 0;
 
-  /// The landmarks that are at hand; replaces what `out` held.
+  /// The landmarks about which the filter can tell now; replaces what `out` held.
   virtual void landmarks_at_hand(std::vector<LandmarkId>& out) const = 0;
   virtual bool is_at_hand(LandmarkId landmark) const = 0;
 
-  // Of landmarks at hand:
+  // For landmarks at hand:
 
   /// p_world_landmark. [m]
   virtual Eigen::Vector2d mean_of(LandmarkId landmark) const = 0;
@@ -30,19 +32,20 @@ class AssociableFilter : public Estimator {
   virtual void covariance_with(std::span<const LandmarkId> landmarks,
                                Eigen::Ref<Eigen::MatrixXd> out) const = 0;
 
-  /// Whether nothing is ever learned of where in the world all of it lies: then the start's uncertainty is
-  /// part of every covariance, as one motion of robot and map.
+  /// Whether the filter never learns where in the world robot and map lie as a whole. Every covariance then
+  /// contains the uncertainty of the start, as one rigid motion of robot and map.
   virtual bool keeps_start_uncertainty() const { return false; }
 
-  /// Others that ought to be at hand soon.
+  /// Asks that these landmarks be at hand soon.
   virtual void want(std::span<const LandmarkId> /*landmarks*/) {}
 
-  /// With the next scan, and if they are at hand then: these two are one landmark. One of them is not to be
-  /// observed from then on.
+  /// These two are one landmark: the filter joins them with the next scan, if both are at hand then. From
+  /// then on only one of them may be observed.
   virtual void equate(LandmarkId a, LandmarkId b) = 0;
 };
 
-/// How far two landmarks that are one may lie apart. An information filter cannot represent zero. [m]
+/// The standard deviation with which two landmarks that are one are held together: an information filter
+/// cannot represent zero. [m]
 inline constexpr double equal_sd = 1e-3;
 
 }  // namespace seif

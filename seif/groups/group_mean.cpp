@@ -1,0 +1,12 @@
+#include "seif/groups/group_mean.hpp"
+
+namespace seif {
+
+bool GroupMean::activate(InformationState& state, std::vector<int>& slots, double /*range*/) {
+  for (const int slot : slots) {
+    if (state.position(slot) < 0) groups_.activate(state, slot);
+  }
+  return true;
+}
+
+}  // namespace seif

@@ -1,0 +1,77 @@
+#include "seif/linearisation.hpp"
+
+namespace seif {
+namespace {
+
+Eigen::Vector2d p_world_robot(const InformationState& state) { return {state.pose().x, state.pose().y}; }
+
+/// With its variables changed so that turning the pose by dtheta takes the landmark along by J (from - to)
+/// dtheta, J a quarter turn, Omega knows nothing of turning everything about `to` instead of the old first
+/// estimate.
+void move_first_estimate(InformationState& state, int position, const Eigen::Vector2d& to) {
+  const int slot = state.active(position);
+  const Eigen::Vector2d by = to - state.first_estimates().point(slot);
+  state.first_estimates().set_point(slot, to);
+  auto Omega = state.Omega();
+  auto r = state.r();
+  const int row = InformationState::row_of(position);
+  Omega.col(2) += by.y() * Omega.col(row) - by.x() * Omega.col(row + 1);
+  Omega.row(2) += by.y() * Omega.row(row) - by.x() * Omega.row(row + 1);
+  r(2) += by.y() * r(row) - by.x() * r(row + 1);
+  state.touch(state.active_count() + 1);
+}
+
+}  // namespace
+
+Pose2 linearisation_pose(const InformationState& state) {
+  return state.first_estimates().in_use() ? state.first_estimates().pose() : state.pose();
+}
+
+Eigen::Vector2d linearisation_point(const InformationState& state, int slot) {
+  return state.first_estimates().in_use() ? state.first_estimates().point(slot) : state.mean(slot);
+}
+
+Eigen::Vector2d lever(const InformationState& state, int slot, const Eigen::Vector2d& p_world_landmark) {
+  const FirstEstimates& firsts = state.first_estimates();
+  Eigen::Vector2d lever = p_world_landmark - p_world_robot(state);
+  if (!firsts.in_use()) return lever;
+  const Eigen::Vector2d first = firsts.lever(slot);
+  return are_levers_alike(first, lever, firsts.sighting_sd()) ? first : lever;
+}
+
+std::optional<Pose2> other_linearisation_pose(const InformationState& state) {
+  const FirstEstimates& firsts = state.first_estimates();
+  if (!firsts.in_use()) return std::nullopt;
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int slot = state.active(position);
+    const Eigen::Vector2d lever = state.mean(slot) - p_world_robot(state);
+    if (are_levers_alike(firsts.lever(slot), lever, firsts.sighting_sd())) continue;
+    const Eigen::Vector2d p = firsts.point(slot) - lever;
+    return Pose2{p.x(), p.y(), firsts.pose().theta};
+  }
+  return std::nullopt;
+}
+
+Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& prediction) {
+  const Pose2 before = state.pose();
+  state.set_pose(prediction);
+  if (!state.first_estimates().in_use()) return {prediction.x - before.x, prediction.y - before.y};
+
+  return state.first_estimates().move_pose(before, prediction, [&](const auto& visit) {
+    for (int position = 0; position < state.active_count(); ++position)
+      visit(state.active(position), state.mean(state.active(position)));
+  });
+}
+
+/// A first estimate settles with its first link to a passive landmark: to move it then would link the pose to
+/// that landmark.
+void update_first_estimates(InformationState& state) {
+  const FirstEstimates& firsts = state.first_estimates();
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int slot = state.active(position);
+    if (state.sightings(slot) > firsts.settled_after() || state.has_link(slot)) continue;
+    move_first_estimate(state, position, firsts.framed(state.mean(slot), state.pose()));
+  }
+}
+
+}  // namespace seif

@@ -1,0 +1,12 @@
+#include "seif/tree/tree_mean.hpp"
+
+namespace seif {
+
+/// The solution for the window is that for all landmarks: the others follow when somebody looks.
+bool TreeMean::end_update(InformationState& state) {
+  if (!tree_.solve_window(state)) return false;
+  tree_.end_update(state);
+  return true;
+}
+
+}  // namespace seif

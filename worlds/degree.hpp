@@ -1,0 +1,10 @@
+// Degrees exist in world files alone: everything else is in radians.
+#pragma once
+
+#include <numbers>
+
+namespace worlds {
+
+inline constexpr double degree = std::numbers::pi / 180;  // [rad]
+
+}  // namespace worlds
