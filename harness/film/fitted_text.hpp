@@ -1,4 +1,4 @@
-// Text that keeps to the room that there is.
+// Text that is cut to the available width.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// The text, or as much of it as is no wider than `room` [px], with an ellipsis.
+/// The text if it is at most `room` [px] wide; otherwise its beginning and an ellipsis.
 std::string fitted(std::string text, float size, render::Weight weight, float room);
 
 }  // namespace harness

@@ -1,4 +1,5 @@
-// A run with all that `seifbed score` tells of one. What that rebuilds by a replay is taken as the run goes.
+// Runs a world together with the details of `seifbed score`. What `seifbed score` rebuilds by a replay is
+// gathered during the run.
 #pragma once
 
 #include <optional>
@@ -11,13 +12,13 @@ namespace harness {
 
 struct DetailedRun {
   RunResult result;
-  std::optional<RunDetails> details = {};  // nothing of a run that ended before its time
+  std::optional<RunDetails> details = {};  // empty if the run ended early
 };
 
-/// As execute(); the details stand in summary.json too.
+/// Runs as execute() does; summary.json also has the details.
 DetailedRun execute_in_detail(PreparedRun& run);
 
-/// The summary, with the details where there are any.
+/// The summary, with the details if there are any.
 std::string to_json(const DetailedRun& run);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The rest of a run that was interrupted or cut off.
+// Completes a run that was interrupted or cut off.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace harness {
 
-/// Whether something of a run is missing. Throws BadInput if this is no folder of a run.
+/// True if a part of the run is missing. Throws BadInput if `run` is not a run folder.
 bool is_incomplete(const std::filesystem::path& run);
 
-/// Simulates such a run again from its world.yaml, beside it, and puts the whole in its place: the same bytes
-/// as if nothing had happened, but for times. What was recorded must come again, to the bit; otherwise
-/// std::runtime_error, and the folder stays as it was. So it does if this is interrupted or fails. Throws
-/// BadInput for a world that cannot be read.
+/// Simulates the run again from its world.yaml and then replaces the folder's files. The result has the same
+/// bytes as an uninterrupted run, except for times. The new run must repeat the record to the bit, otherwise
+/// this throws std::runtime_error. The folder is unchanged if this throws, is interrupted or fails. Throws
+/// BadInput if the world cannot be read.
 RunResult resume(const std::filesystem::path& run, const seif::Registry& registry, bool quiet);
 
 }  // namespace harness

@@ -1,6 +1,6 @@
-// What goes wrong on purpose between the truth and the stream: the faults of a world, each at its time. They
-// draw nothing at random and change nothing that is drawn, so a run is the same up to its first fault as
-// without.
+// Injects the faults of a world between the truth and the stream, each at its time. Faults use no random
+// numbers and do not change those of others. So a run is the same as one without faults until the first
+// fault.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace harness {
 
-/// What the encoders read beyond the true angles.
+/// The error of the encoders on top of the true angles.
 struct WheelJumps {
   double left = 0.0;   // [rad]
   double right = 0.0;  // [rad]
 };
 
-/// Times are those of the run and must not decrease. [s]
+/// Times are simulated times and must not decrease. [s]
 class FaultInjection {
  public:
   explicit FaultInjection(const std::vector<worlds::Fault>& faults);
 
-  /// Where the robot is put now; each kidnapping is told once. T_world_robot.
+  /// The new true pose T_world_robot if the robot is moved away at `t`. Each kidnapping is returned once.
   std::optional<worlds::Placement> kidnapping(double t);
 
   bool is_silent(worlds::FaultySensor sensor, double t) const;
 
   WheelJumps encoder_jumps(double t) const;
 
-  /// Spoils the first observation of a scan, by all faults that are due; they wait for one that saw
-  /// something.
+  /// Spoils the first observation of a scan by all faults that are due. They wait for a scan that has
+  /// observations.
   void spoil(seif::Scan& scan);
 
  private:

@@ -1,5 +1,5 @@
-// The door of the estimators: what comes in is looked at, and what no estimator can be given is left out,
-// counted and told. Recorded is what passed, so a replay gets the same.
+// Checks every event before the estimators get it. Invalid measurements are left out, counted and reported.
+// Only what passed is recorded, so a replay gets the same events.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@
 
 namespace harness {
 
-/// Why something is left out.
+/// The reason for leaving something out.
 enum class Rejection {
   odometry_not_finite,
-  odometry_out_of_range,  // further than anything drives in one increment, or a covariance that is none
+  odometry_out_of_range,  // an impossible distance for one increment, or an invalid covariance
   observations_not_finite,
-  observations_out_of_range  // a negative range or one beyond the sensor's, or a covariance that is none
+  observations_out_of_range  // a range that is negative or above the sensor's, or an invalid covariance
 };
 inline constexpr std::size_t rejection_count = 4;  // [-]
 
@@ -29,14 +29,14 @@ class Screening {
  public:
   explicit Screening(const LogDescription& log);
 
-  /// Takes out of an event what is left out. False if nothing of it remains; a scan remains if it is empty.
+  /// Removes what is invalid from an event. False if nothing remains; a scan remains even if it is empty.
   bool admit(Event& event);
 
   std::int64_t count(Rejection why) const { return counts_.at(static_cast<std::size_t>(why)); }
-  /// When something was first left out. [s]
+  /// The time at which something was first left out. [s]
   std::optional<double> first_t() const { return first_t_; }
 
-  /// Those that are not zero, under the names that the scores give them.
+  /// The counts that are not zero, with their names in the scores.
   std::vector<std::pair<std::string_view, std::int64_t>> named() const;
 
  private:
