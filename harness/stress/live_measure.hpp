@@ -1,4 +1,4 @@
-// The measured part: everything live in Bullet, each stage with its clock.
+// The measured part of a stress test: everything live in Bullet, with a clock for each stage.
 #pragma once
 
 #include "harness/stress/stress.hpp"
@@ -6,9 +6,9 @@
 
 namespace harness {
 
-/// Runs the filters of `warm` on in `world`, from where the robot is, and fills in the row. Each runs alone,
-/// on the same stream: beside a filter that goes through all of the caches, any other would be slow. What the
-/// row says of everything else was measured with the first.
+/// Continues with the filters of `warm` in `world`, from the robot's position, and fills in the row. Each
+/// filter runs alone on the same stream: a filter that uses up the whole cache would slow down any other. The
+/// row's remaining values are measured with the first filter.
 void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart& warm,
                   const std::atomic<bool>& stop, StressRow& row);
 
