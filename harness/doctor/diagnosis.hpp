@@ -1,4 +1,4 @@
-// What the doctor finds: whether everything that this program can do, it can do here.
+// The findings of `seifbed doctor`: whether everything works on this machine.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 namespace harness {
 
 struct Finding {
-  std::string name;  // of what was looked at
+  std::string name;  // what was examined
   bool is_good = true;
-  std::string says;  // a version or a figure; or what is wrong, and what to install
+  std::string says;  // a version or a figure; or the problem, and what to install
 };
 
 struct Diagnosis {
@@ -19,12 +19,13 @@ struct Diagnosis {
   std::vector<Finding> self_test;
 };
 
-/// What `look` returns is what a good finding says, and what it throws (std::exception) is what is wrong.
+/// Calls `look`. Its result is the text of a good finding; the message of a std::exception is the text of a
+/// bad one.
 Finding finding(const std::string& name, const std::function<std::string()>& look);
 
 bool is_well(const Diagnosis& diagnosis);
 
-/// One line for each finding, and a last one that says how it stands altogether.
+/// One line for each finding, and a last line with the overall result.
 std::string diagnosis_board(const Diagnosis& diagnosis);
 std::string to_json(const Diagnosis& diagnosis);
 

@@ -1,4 +1,4 @@
-// Whether this build does on this machine what it was made for. A few seconds.
+// Tests whether this build works on this machine. It takes a few seconds.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Physics, sensing, estimation, recording and rendering, each held against what must come of it.
+/// Tests physics, sensing, estimation, recording and rendering, each against known results.
 std::vector<Finding> test_self(const seif::Registry& registry);
 
 }  // namespace harness
