@@ -34,8 +34,7 @@ struct EstimatorComparison {
   std::optional<Estimate> nees_landmark;         // [-] when the run ends
   std::optional<Estimate> nees_from_robot;       // [-] of landmarks as seen from the robot, when the run ends
   std::optional<Estimate> nis_scan;              // [-] for whole scans
-  std::optional<double> nis_scan_inside;         // [-] share of the scans inside their band, mean over the
-                                                 // runs
+  std::optional<double> nis_scan_inside;         // [-] share of scans inside their band, mean over runs
   std::optional<double> landmarks_missed;        // [-] mean over the runs, as for the next two
   std::optional<double> landmarks_spurious;      // [-]
   std::optional<double> landmarks_duplicate;     // [-]

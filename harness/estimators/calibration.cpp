@@ -22,8 +22,7 @@ constexpr double outlier_probability = 0.01;
 /// [1/(m rad)] density of an outlier: a range of up to 10 m and any bearing.
 constexpr double outlier_density = 1.0 / (10.0 * 2.0 * std::numbers::pi);
 
-constexpr double smallest_sensor_sd = 1e-4;  // [m, rad] lower limit of the search; every sensor has some
-                                             // error
+constexpr double smallest_sensor_sd = 1e-4;  // [m, rad] lower limit: every sensor has some error
 
 using Parameters = Eigen::VectorXd;  // logarithms of the standard deviations that are not zero
 

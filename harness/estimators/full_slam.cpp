@@ -158,8 +158,7 @@ void add_terms(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem
 void minimise(ceres::Problem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // the same bits whatever BLAS is
-                                                                     // installed
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // the same bits whatever BLAS there is
   options.initial_trust_region_radius = options.max_trust_region_radius;
   options.max_num_iterations = 200;
   options.function_tolerance = 1e-12;  // [-] of the sum of squares: far below one standard deviation

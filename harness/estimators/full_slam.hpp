@@ -35,8 +35,7 @@ struct FullSlam {
 struct FullSlamOptimum {
   std::vector<seif::Pose2> poses;          // T_world_robot
   std::vector<Eigen::Vector2d> landmarks;  // p_world_landmark [m]
-  Eigen::SparseMatrix<double> Omega;       // J' J at the optimum, lower triangle; rows: the poses, then the
-                                           // landmarks
+  Eigen::SparseMatrix<double> Omega;       // J' J at the optimum, lower triangle; poses, then landmarks
 };
 
 /// Two successive motions as one, with the covariance to first order.

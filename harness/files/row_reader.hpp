@@ -31,8 +31,7 @@ class RowReader {
   bool is_comment() const { return line_.starts_with('#'); }
 
   std::size_t size() const { return cells_.size(); }  // number of cells
-  std::string_view cell(std::size_t i) const;         // without spaces around it; empty if the line has no
-                                                      // such cell
+  std::string_view cell(std::size_t i) const;         // trimmed; empty if the line has no such cell
 
   /// The number in a cell; error messages call the cell `name`.
   double number(std::size_t i, std::string_view name, Finite finite = Finite::required) const;

@@ -10,8 +10,7 @@ namespace harness {
 
 namespace {
 
-constexpr double longest_hold = 0.5;  // [s] rows come every few hundredths of a second; a longer time counts
-                                      // as a gap
+constexpr double longest_hold = 0.5;  // [s] rows come every few hundredths of a second; more is a gap
 
 /// The arc of a robot with two wheels one metre apart.
 seif::Pose2 arc(const VelocityRow& velocity, double duration) {

@@ -37,8 +37,7 @@ void add_file(Fnv1a& hash, const std::filesystem::path& path) {
 
 std::string file_name_of(std::string_view name) {
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-  constexpr std::size_t longest = 100;  // [byte] well below the limits of file systems, with room for a
-                                        // suffix
+  constexpr std::size_t longest = 100;  // [byte] well below file systems' limits, with room for a suffix
   std::string result(name.substr(0, longest));
   for (char& c : result) {
     if (allowed.find(c) == std::string_view::npos) c = '_';

@@ -132,8 +132,7 @@ std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::ve
     }
   }
   if (figures[1].curves.size() > 1)
-    figures[1].curves.front().is_hidden = true;  // its error may be as large
-                                                 // as a full circle
+    figures[1].curves.front().is_hidden = true;  // its error may be as large as a circle
   return figures;
 }
 

@@ -25,8 +25,7 @@ struct StressPlan {
   /// place depends on how the tree of the map happens to be divided there.
   std::int64_t places = 10;
   double slowest_ms = 50.0;  // [ms] limit of the mean update time in a warm start
-  std::map<std::string, std::int64_t> most_landmarks = {{"ekf", 5'000}, {"eif", 500}};  // limit for each
-                                                                                        // estimator
+  std::map<std::string, std::int64_t> most_landmarks = {{"ekf", 5'000}, {"eif", 500}};  // by estimator
   std::int64_t most_scored = 20'000;   // [-] landmarks; larger maps are not scored
   std::vector<std::string> overrides;  // for the world files
   std::filesystem::path folder;        // it gets a folder for each row, and in it one for each estimator

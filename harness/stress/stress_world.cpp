@@ -13,10 +13,9 @@ namespace harness {
 
 namespace {
 
-constexpr double lane = 8.0;           // [m] distance between lanes
-constexpr double sensor_range = 6.0;   // [m] more than the half diagonal of a square with the side `lane`, so
-                                       // that no landmark is missed
-constexpr double clear_of_path = 0.7;  // [m] from the middle of the robot
+constexpr double lane = 8.0;             // [m] distance between lanes
+constexpr double sensor_range = 6.0;     // [m] above half the diagonal of a lane's square: all are seen
+constexpr double clear_of_path = 0.7;    // [m] from the middle of the robot
 constexpr double landmark_radius = 0.1;  // [m]
 constexpr double margin = 10.0;          // [m] of ground around everything
 

@@ -29,8 +29,7 @@ struct WarmStart {
 
 struct WarmStartLimits {
   double length = 0.0;      // [m] length of the round
-  double slowest_ms = 0.0;  // [ms] an estimator with a higher mean update time, over about the last hundred,
-                            // is given up
+  double slowest_ms = 0.0;  // [ms] mean of the last hundred updates or so that makes an estimator give up
 };
 
 /// Drives one round. Ends early if `stop` is set.
