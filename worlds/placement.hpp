@@ -1,3 +1,4 @@
+// A position and heading on the ground.
 #pragma once
 
 #include <Eigen/Core>
