@@ -8,9 +8,8 @@
 // Robot and active landmarks (those with a link to the robot) are the window. Its matrix is dense, and motion,
 // measurement and sparsification change nothing outside it. The rest is a graph of 2 x 2 blocks, each stored
 // once.
-// The state keeps the residual r = xi - Omega mu instead of xi, for three reasons: no large numbers cancel,
-// turning the heading by a full circle changes nothing, and moving the mean by d is exact: r -= Omega d. When
-// xi is needed, it is r + Omega mu.
+// The state keeps the residual r = xi - Omega mu instead of xi. So no large numbers cancel, turning the heading
+// by a full circle changes nothing, and moving the mean by d is exact: r -= Omega d. xi is r + Omega mu.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,9 +45,7 @@ class InformationState {
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
-  void set_pose(const Pose2& pose) {
-    mu_.head<3>() << pose.x, pose.y, pose.theta;
-  }  // the caller must update r
+  void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller updates r
 
   /// Not in use by default: Jacobians are then taken at the mean (linearisation.hpp).
   FirstEstimates& first_estimates() { return first_estimates_; }
@@ -80,7 +77,7 @@ class InformationState {
   /// Takes a passive landmark into the window; returns its position there.
   int activate(int slot);
 
-  /// Takes the landmark at `position` out of the window. Its link to the robot must be zero. The last active
+  /// Takes the landmark at `position`, whose link to the robot must be zero, out of the window. The last active
   /// landmark moves to its position.
   void deactivate(int position);
 
@@ -98,16 +95,14 @@ class InformationState {
   void move_landmark(int slot, const Eigen::Vector2d& d);
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d);  // (w x 1)
 
-  /// The same if all passive landmarks follow in such a way that their own r does not change: the window's r is
-  /// reduced by `dr` (w x 1), no other r changes, and the caller must update the means of the passive
-  /// landmarks.
+  /// The same if all passive landmarks follow so that their own r stays: the window's r is reduced by `dr` (w x
+  /// 1), no other r changes, and the caller updates the means of the passive landmarks.
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d, const Eigen::Ref<const Eigen::VectorXd>& dr);
 
   /// Sets the mean of a passive landmark; the caller must update r.
   void set_mean(int slot, const Eigen::Vector2d& mean);
 
-  /// From now on squared_residual() is kept up to date wherever r changes. To be called before the first
-  /// landmark joins.
+  /// Keeps squared_residual() up to date wherever r changes. To be called before the first landmark joins.
   void track_residual() { tracks_residual_ = true; }
   /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks [-], in constant time. Nothing if the robot's
   /// block is not positive definite.
@@ -116,7 +111,7 @@ class InformationState {
   /// The report's count: links of the robot + pairs of linked landmarks.
   std::int64_t link_count() const;
 
-  /// Blocks read or written so far. Whoever works on the window reports with touch() how many blocks that was.
+  /// Blocks read or written so far. Whoever works on the window adds its blocks with touch().
   std::int64_t blocks_touched() const { return blocks_touched_; }
   void touch(std::int64_t blocks) { blocks_touched_ += blocks; }
   /// The number of distinct blocks in the window.

@@ -48,8 +48,7 @@ struct PoseEstimate {
 struct Odometry {
   double t = 0.0;            // [s] at the end of the increment
   Pose2 T_previous_current;  // the increment, in the robot frame of the previous one
-  Eigen::Matrix3d covariance =
-      Eigen::Matrix3d::Zero();  // (3 x 3) of the increment, in the same frame; any rank
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // (3 x 3) of the increment, same frame; any rank
 };
 
 /// One landmark as the sensor saw it: range and bearing to its centre, in the sensor frame.

@@ -43,8 +43,7 @@ class FreeSpace {
   std::vector<double> radii_;    // [m] of all landmarks
   PointGrid points_;             // of all landmarks
   ShapeGrid keep_outs_;
-  std::vector<double>
-      clearances_;  // [m] for each keep-out: least distance from it to the centre of a landmark
+  std::vector<double> clearances_;  // [m] for each keep-out: least distance to a landmark's centre
 };
 
 }  // namespace worlds

@@ -44,8 +44,7 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
     *node = text_node(drive.commands_file, node->where);
     std::vector<Problem> found;
     drive.commands = read_commands(drive.commands_file, found);
-    if (!found.empty() &&
-        found.front().where.line == 0) {  // a problem of the whole file: say where it was named
+    if (!found.empty() && found.front().where.line == 0) {  // not at one line: say where the file was named
       refuse_value(document, "drive.file", to_string(found.front()), problems);
     } else {
       problems.insert(problems.end(), found.begin(), found.end());

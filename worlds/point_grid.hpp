@@ -82,10 +82,9 @@ class PointGrid {
     for (std::size_t i = 0; i < points_.size(); ++i) link(i);
   }
 
-  double cell_;  // [m] edge of a cell
-  std::vector<std::int32_t>
-      heads_;  // for each bucket: its latest point; the number of buckets is a power of two
-  std::vector<std::int32_t> next_;  // for each point: the one before it in its bucket
+  double cell_;                      // [m] edge of a cell
+  std::vector<std::int32_t> heads_;  // for each of the 2^n buckets: its latest point
+  std::vector<std::int32_t> next_;   // for each point: the one before it in its bucket
   std::vector<Eigen::Vector2d> points_;
 };
 
