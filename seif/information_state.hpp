@@ -95,8 +95,8 @@ class InformationState {
   void move_landmark(int slot, const Eigen::Vector2d& d);
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d);  // (w x 1)
 
-  /// The same if all passive landmarks follow so that their own r stays: the window's r is reduced by `dr` (w x
-  /// 1), no other r changes, and the caller updates the means of the passive landmarks.
+  /// The same if all passive landmarks follow so that their own r stays: the window's r loses `dr` (w x 1), no
+  /// other r changes, and the caller updates the means of the passive landmarks.
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d, const Eigen::Ref<const Eigen::VectorXd>& dr);
 
   /// Sets the mean of a passive landmark; the caller must update r.

@@ -51,9 +51,9 @@ class MeanKeeper {
   /// The mean of a landmark now, p_world_landmark. [m]
   virtual Eigen::Vector2d mean(const InformationState& state, int slot) const = 0;
 
-  /// The Cholesky factor L of the last solve_window(), L L' = Omega + what is known of all other landmarks, if
-  /// L takes all of Omega into account. Then (L L')^-1 is the covariance of the window. Null otherwise. (w x
-  /// w), lower triangle
+  /// The Cholesky factor L (w x w, lower triangle) of the last solve_window(), L L' = Omega + what is known of
+  /// all other landmarks, if L takes all of Omega into account. Then (L L')^-1 is the covariance of the window.
+  /// Null otherwise.
   virtual const WindowFactor* window_factor() const { return nullptr; }
 
   /// Blocks read or written so far. [-]

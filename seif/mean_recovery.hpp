@@ -16,11 +16,11 @@ enum class MeanRecovery {
   exact                // sparse Cholesky: exact, not in constant time
 };
 
-/// The report's coordinate descent, eqs. (42), (43), Lemma 4. It sets each coordinate to its optimum with all
-/// others held. Each update does this once for every active landmark, for `random_landmarks` (the report's K)
-/// drawn from the whole map, and for the robot. In residual form a coordinate's step is Omega_ii^-1 r_i. The
-/// robot comes last, so that r_x = 0 afterwards. False if a diagonal block turns out not to be positive
-/// definite; the mean then includes the steps before.
+/// The report's coordinate descent, eqs. (42), (43), Lemma 4. It sets one coordinate after the other to its
+/// optimum with all others held: once for every active landmark, for `random_landmarks` (the report's K) drawn
+/// from the whole map, and for the robot. In residual form a coordinate's step is Omega_ii^-1 r_i. The robot
+/// comes last, so that r_x = 0 afterwards. False if a diagonal block turns out not to be positive definite; the
+/// mean then keeps the steps made so far.
 [[nodiscard]] bool coordinate_descent(InformationState& state, int random_landmarks, std::mt19937_64& random);
 
 /// Replaces a residual d of robot and active landmarks by the step of their mean that makes it zero, with all

@@ -29,8 +29,8 @@ bool relinearise(InformationState& state, const Pose2& T_robot_sensor, double re
                  std::vector<ObservationFactor>& factors);
 
 /// Adds the information that the two landmarks of each pair are the same one: m_a - m_b = 0 with standard
-/// deviation equal_sd. Both must be active. If their first estimates lie apart, the lever between these enters
-/// the Jacobian, so that the filter learns no heading from it.
+/// deviation equal_sd. Skips pairs that are not both active. If their first estimates lie apart, the lever
+/// between these enters the Jacobian, so that the filter learns no heading from it.
 void add_equal(InformationState& state, const std::vector<std::pair<int, int>>& equal_slots);
 
 }  // namespace seif

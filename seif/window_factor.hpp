@@ -1,4 +1,5 @@
-// The result of solving for the window that its covariance can be computed from.
+// The Cholesky factor of the last solution for the window. The covariance of the window can be computed from
+// it.
 #pragma once
 
 #include <Eigen/Core>
