@@ -21,6 +21,7 @@
 namespace rooms {
 
 using Findings = std::vector<std::string>;
+inline const Findings no_findings;
 
 /// Includes against the arrows, libraries and names where they do not belong, unguarded headers, sources of
 /// chance or time that nobody handed over.

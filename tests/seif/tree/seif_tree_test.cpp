@@ -84,14 +84,12 @@ test::PathDrive wide_drive(double side, int landmark_count) {
 }
 
 /// Drives to the end.
-Seif driven(test::PathDrive drive, const SeifOptions& options) {
-  Seif filter(drive.setup(), options);
+void drive_all(Seif& filter, test::PathDrive drive) {
   while (!drive.at_end()) {
     drive.advance();
     filter.motion_update(drive.odometry());
     filter.measurement_update(drive.scan(), test::ignore);
   }
-  return filter;
 }
 
 /// RMSE of one map to the other, laid over it: the heading at the start, which turns all, is known to 1e-2.
@@ -118,8 +116,11 @@ TEST(SeifByTree, InAWideMapGroupsSaveWorkAndHardlyMoveTheMap) {
   with_groups.tree.most_blocks = 0;  // no observation waits, so that both filters hear the same
   SeifOptions without_groups = with_groups;
   without_groups.tree.most_unknowns = 1'000'000;
-  const Seif exact = driven(wide_drive(side, landmarks), without_groups);
-  const Seif grouped = driven(wide_drive(side, landmarks), with_groups);
+  const test::PathDrive drive = wide_drive(side, landmarks);
+  Seif exact(drive.setup(), without_groups);
+  Seif grouped(drive.setup(), with_groups);
+  drive_all(exact, drive);
+  drive_all(grouped, drive);
   EXPECT_LT(grouped.counts().blocks_touched, exact.counts().blocks_touched);
   const double moved = distance_of_shapes(grouped.map(), exact.map());
   EXPECT_GT(moved, 0.0);
