@@ -5,6 +5,9 @@
 // step nor a scan costs more in a world with more landmarks.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/near_solids.hpp"
 #include "sim/robot_body.hpp"
 #include "sim/sensing_world.hpp"

@@ -2,6 +2,9 @@
 // are points that hide nothing and stop nothing. For runs by the thousand.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/simulator.hpp"
 #include "worlds/point_grid.hpp"
 

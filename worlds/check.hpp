@@ -1,6 +1,8 @@
 // What a description cannot say: whether the parts of a world fit together.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "worlds/describe.hpp"

@@ -1,6 +1,8 @@
 // What must hold of a condensation tree between updates.
 #include <algorithm>
+#include <optional>
 #include <sstream>
+#include <string>
 
 #include "seif/tree/condensation_tree.hpp"
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"

@@ -1,6 +1,9 @@
 // Which leaves are to be hot next, and which messages have to be sent anew for that.
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"

@@ -1,5 +1,6 @@
 // The messages of a plan, made ready: each node's front filled and condensed. What they hold of the residual
 // comes when the zone moves (condensation_switching.cpp).
+#include <cstdint>
 #include <limits>
 
 #include "seif/tree/condensation_tree.hpp"

@@ -18,6 +18,7 @@
 //           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

@@ -1,8 +1,10 @@
 // Letters as a texture, each drawn once.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "sim/render/font.hpp"
 #include "sim/render/gl.hpp"

@@ -1,6 +1,8 @@
 // Flat marks in one view.
 #pragma once
 
+#include <vector>
+
 #include "sim/render/capsules.hpp"
 #include "sim/render/ellipses.hpp"
 

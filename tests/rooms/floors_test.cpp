@@ -8,8 +8,6 @@
 namespace rooms {
 namespace {
 
-
-
 Findings check_includes(const std::string& path, const std::string& include) {
   return check_floors(parse_source({path, "#include \"" + include + "\"\n"}));
 }

@@ -6,8 +6,6 @@
 namespace rooms {
 namespace {
 
-
-
 TEST(StandardHeaders, ComeFromTheFileOrItsOwnHeader) {
   const Source header = parse_source({"seif/a.hpp", "#include <vector>\nstd::vector<int> f();\n"});
   const Source file = parse_source(

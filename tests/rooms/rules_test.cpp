@@ -17,8 +17,6 @@ Findings check_include(const std::string& path, const std::string& include) {
   return check(path, "#pragma once\n#include " + include + "\n");
 }
 
-
-
 TEST(Arrows, MayBeFollowed) {
   EXPECT_EQ(check_include("seif/dense/ekf.cpp", R"("seif/models.hpp")"), no_findings);
   EXPECT_EQ(check_include("worlds/load.cpp", R"("worlds/world.hpp")"), no_findings);
@@ -26,7 +24,8 @@ TEST(Arrows, MayBeFollowed) {
   EXPECT_EQ(check_include("sim/vehicle.hpp", R"("worlds/world.hpp")"), no_findings);
   EXPECT_EQ(check_include("sim/render/scene.cpp", R"("sim/render/scene.hpp")"), no_findings);
   for (const char* room : {"seif", "worlds", "sensors", "sim", "sim/render", "harness", "harness/peers"}) {
-    EXPECT_EQ(check_include("harness/run/run.cpp", std::string("\"") + room + "/a.hpp\""), no_findings) << room;
+    EXPECT_EQ(check_include("harness/run/run.cpp", std::string("\"") + room + "/a.hpp\""), no_findings)
+        << room;
   }
   EXPECT_EQ(check_include("tests/seif/dense/ekf_test.cpp", R"("seif/dense/ekf.hpp")"), no_findings);
   EXPECT_EQ(check_include("tests/seif/dense/ekf_test.cpp", R"("oracle.hpp")"), no_findings);

@@ -8,8 +8,6 @@
 namespace rooms {
 namespace {
 
-
-
 std::string lines(int n) {
   std::string text;
   for (int i = 0; i < n; ++i) text += "a();\n";

@@ -1,6 +1,7 @@
 // What holds of every run, whatever its world.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,9 @@
 // The section `faults`: what it says, and what of it is refused.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "world_files.hpp"
 
 namespace worlds {

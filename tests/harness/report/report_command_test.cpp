@@ -1,7 +1,10 @@
 // `seifbed report` as people call it, and its pages as a browser shows them.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "browser.hpp"
 #include "harness/command_call.hpp"

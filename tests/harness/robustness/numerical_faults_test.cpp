@@ -1,9 +1,13 @@
 // Filters whose numbers go wrong: they are told, and taken out where they are of no use any more.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/scoreboard.hpp"

@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <random>
 #include <vector>
 
 #include "seif/dense_oracle.hpp"
