@@ -40,7 +40,7 @@ struct Mapper {
       if (slot && state.position(*slot) < 0) mean.activate(state, *slot);
       if (slot) state.mark_seen(*slot);
     }
-    mean.before_information(state);
+    EXPECT_TRUE(mean.before_information(state));
   }
 
   void add_known(const Scan& scan) {
@@ -60,7 +60,9 @@ struct Mapper {
       state.mark_seen(slot);
       add(state, linearise(state, slot, z, {}));
     }
-    if (heard) mean.after_information(state);
+    if (heard) {
+      EXPECT_TRUE(mean.after_information(state));
+    }
   }
 
   /// Down to `theta_x` if the robot has more than `theta_max` links.

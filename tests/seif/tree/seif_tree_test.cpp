@@ -120,12 +120,12 @@ TEST(SeifByTree, InAWideMapGroupsSaveWorkAndHardlyMoveTheMap) {
   SeifOptions without_groups = with_groups;
   without_groups.tree.most_unknowns = 1'000'000;
   const test::PathDrive drive = wide_drive(side, landmarks);
-  Seif exact(drive.setup(), without_groups);
-  Seif grouped(drive.setup(), with_groups);
-  drive_all(exact, drive);
-  drive_all(grouped, drive);
-  EXPECT_LT(grouped.counts().blocks_touched, exact.counts().blocks_touched);
-  const double moved = distance_of_shapes(grouped.map(), exact.map());
+  Seif exact_filter(drive.setup(), without_groups);
+  Seif grouped_filter(drive.setup(), with_groups);
+  drive_all(exact_filter, drive);
+  drive_all(grouped_filter, drive);
+  EXPECT_LT(grouped_filter.counts().blocks_touched, exact_filter.counts().blocks_touched);
+  const double moved = distance_of_shapes(grouped_filter.map(), exact_filter.map());
   EXPECT_GT(moved, 0.0);
   EXPECT_LT(moved, 1e-3);  // a twentieth of the noise of a range
 }
