@@ -68,10 +68,10 @@ void Front::begin() {
 }
 
 Front::Rows& Front::rows_of(FrontVariable v) {
-  ChunkedArray<Rows>& entries = is_group(v) ? groups_ : landmarks_;
+  ChunkedArray<Rows>& rows = is_group(v) ? groups_ : landmarks_;
   const auto i = static_cast<std::size_t>(is_group(v) ? ~v : v);
-  while (entries.size() <= i) entries.push_back({});
-  return entries[i];
+  while (rows.size() <= i) rows.push_back({});
+  return rows[i];
 }
 
 std::size_t Front::index_of(FrontVariable v) {
