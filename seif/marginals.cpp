@@ -13,8 +13,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLLT<Sparse, Eigen::Lower>;  // P A P' = L L'
 
-/// [-] So many landmarks cost less one by one than by inverting the whole pattern, even in a long ring, whose
-/// elimination tree is as high as it is long.
+/// [-] Up to this number of landmarks, computing the blocks one by one costs less than inverting the whole
+/// pattern. This holds even in a long ring, whose elimination tree is as high as the ring is long.
 constexpr std::size_t few_landmarks = 64;
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -22,7 +22,7 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 /// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
 /// column j:
 ///   Z_ij = -sum_k Z_ik L_kj / L_jj,   Z_jj = 1 / L_jj^2 - sum_k Z_kj L_kj / L_jj.
-/// Every Z_ik that is asked for lies on the pattern, since elimination of j links its rows pairwise.
+/// Every Z_ik in these sums lies on the pattern, since the elimination of j links its rows pairwise.
 void invert_on_pattern(Sparse& L) {
   const int n = static_cast<int>(L.cols());
   const int* starts = L.outerIndexPtr();
@@ -59,15 +59,15 @@ void invert_on_pattern(Sparse& L) {
   }
 }
 
-/// The next column on the way up the elimination tree; -1 at its root.
+/// The next column on the path up the elimination tree; -1 at its root.
 int parent(const Sparse& L, int column) {
   const int below = L.outerIndexPtr()[column] + 1;  // the diagonal comes first
   return below < L.outerIndexPtr()[column + 1] ? L.innerIndexPtr()[below] : -1;
 }
 
-/// These rows and columns of A^-1: W' W with W = L^-1 P E, E being these columns of the identity. Of the rows
-/// of W only those are not zero, and kept, that lie on the ways from these up the elimination tree. `index_of`
-/// (n x 1) is -1, and is again afterwards.
+/// These rows and columns of A^-1: W' W with W = L^-1 P E, where E has these columns of the identity. Only
+/// those rows of W that lie on the paths from `rows` up the elimination tree are not zero, and only they are
+/// stored. `index_of` (n x 1) is -1 before and after.
 Eigen::MatrixXd block_of_inverse(const Factor& factor, std::span<const int> rows, Eigen::VectorXi& index_of) {
   const Sparse& L = factor.matrixL().nestedExpression();
   const auto& permuted = factor.permutationP().indices();

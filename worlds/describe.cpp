@@ -15,7 +15,7 @@
 namespace worlds {
 namespace {
 
-// Limits that keep a slip of the finger from asking for more than a machine has.
+// Limits that stop a typing mistake from asking for more than a machine has.
 constexpr double largest_height = 1e3;             // [m]
 constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
 constexpr double largest_landmark_radius = 100;    // [m] of a landmark

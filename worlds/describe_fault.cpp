@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infini
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
 
-constexpr double largest_jump = 36'000;  // [deg] a hundred turns
+constexpr double largest_jump = 36'000;  // [deg] one hundred turns
 
 std::vector<Fields::Case> fault_cases(Fault& fault) {
   return {

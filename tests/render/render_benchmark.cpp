@@ -1,4 +1,4 @@
-// Times of a frame of 1280 x 720 pixels.
+// Measures the time of a frame of 1280 x 720 pixels.
 
 #include <benchmark/benchmark.h>
 

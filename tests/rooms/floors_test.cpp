@@ -1,4 +1,4 @@
-// Arrows between the sub-rooms of harness/ run down, and its top stays small.
+// Arrows between the sub-rooms of harness/ point down, and its top level stays small.
 #include "floors.hpp"
 
 #include <gtest/gtest.h>

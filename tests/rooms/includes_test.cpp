@@ -1,4 +1,4 @@
-// A standard header that is missing is found, wherever it would have come from.
+// A missing standard header is found, even if another header would have brought it.
 #include "includes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Each rule finds the source that breaks it, and leaves alone the one that does not.
+// Each rule finds the source that breaks it, and accepts the one that does not.
 #include "rules.hpp"
 
 #include <gtest/gtest.h>

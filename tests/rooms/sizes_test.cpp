@@ -1,4 +1,4 @@
-// What is too long is found, and what is not is left alone.
+// Headers and functions that are too long are found, and others are not.
 #include "sizes.hpp"
 
 #include <gtest/gtest.h>

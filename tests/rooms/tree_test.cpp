@@ -1,4 +1,4 @@
-// This tree keeps to its architecture.
+// This tree follows its architecture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST(Tree, HeadersAndFunctionsAreShort) {
   Findings findings;
   for (const TextFile& file : read_sources(SEIFBED_SOURCE_DIR)) {
     if (file.path.starts_with("tests/")) continue;
-    // The condensation tree still has the size that it grew to.
+    // The condensation tree's header is longer than the limit.
     if (file.path != "seif/tree/condensation_tree.hpp")
       std::ranges::copy(check_header_length(file), std::back_inserter(findings));
     std::ranges::copy(check_function_lengths(parse_source(file)), std::back_inserter(findings));

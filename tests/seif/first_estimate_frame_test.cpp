@@ -1,4 +1,4 @@
-// Where the pose stands among first estimates, and which levers are taken between them.
+// The pose in the frame of the first estimates, and which levers are used there.
 
 #include "seif/first_estimate_frame.hpp"
 
@@ -19,7 +19,7 @@ const Pose2 pose{3.0, 1.0, 0.4};
 const Pose2 turned_and_moved{40.0, -7.0, 0.1};  // T_first_mean
 constexpr double sighting_sd = 0.05;            // [m]
 
-/// Landmarks about the robot, at first estimates that all of them have moved from together.
+/// Landmarks around the robot that have all moved together from their first estimates.
 std::vector<FirstEstimate> landmarks_moved_by(const Pose2& T_first_mean, int count, double phase) {
   std::vector<FirstEstimate> landmarks;
   for (int k = 0; k < count; ++k) {
@@ -75,7 +75,8 @@ TEST(FirstEstimateFrame, IsKeptWhereTheOthersDoNotAgree) {
   EXPECT_FALSE(framed.another_frame);
 }
 
-/// Six active landmarks seen from the origin, of which the last two have been moved since, by 50 m or so far.
+/// Six active landmarks, seen from the origin. The last two have been moved since their first estimates, by
+/// `moved` [m].
 InformationState closed_loop(double moved = 50.0) {
   InformationState state({.mean = {}, .covariance = 0.01 * Eigen::Matrix3d::Identity()});
   state.first_estimates().settle_after(1);
@@ -103,7 +104,7 @@ TEST(FirstEstimateFrame, LeversAreBetweenFirstEstimatesWhereTheseAreNearAndBetwe
   EXPECT_NEAR(other->x, 50.1, 1e-12);
 }
 
-// At 3 m, 0.5 m are ten standard deviations of a sighting, and a sixth of the lever.
+// At a distance of 3 m, 0.5 m is ten standard deviations of a sighting, and a sixth of the lever.
 TEST(FirstEstimateFrame, IsAnotherOneAsSoonAsNoNoiseExplainsIt) {
   EXPECT_TRUE(other_linearisation_pose(closed_loop(0.5)));
   EXPECT_FALSE(other_linearisation_pose(closed_loop(0.2)));

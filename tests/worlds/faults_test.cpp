@@ -1,4 +1,4 @@
-// The section `faults`: what it says, and what of it is refused.
+// The section `faults`: how it is read, and which faults are refused.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// `seifbed replay` and `calibrate` on logs of other formats, as people call them.
+// `seifbed replay` and `calibrate` on logs in other formats, on the command line.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// No file that is read chooses where something is written, or what is executed.
+// No input file can choose where something is written, or what is executed.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -52,7 +52,7 @@ TEST(DurableFile, HasItsNameWhenItIsCommittedAndNotBefore) {
   EXPECT_EQ(test::read_file(folder / "table.csv"), "new");
 }
 
-/// Writers of the same file are killed in the middle of it, again and again.
+/// Writers of the same file are killed in the middle of it, many times.
 TEST(DurableFile, IsWholeWhoeverIsKilled) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "0.json";
