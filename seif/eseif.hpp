@@ -1,6 +1,7 @@
 // The exactly sparse extended information filter.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

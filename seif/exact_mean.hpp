@@ -1,6 +1,9 @@
 // The exact mean after every update, by sparse Cholesky: not in constant time.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "seif/mean_keeper.hpp"
 
 namespace seif {

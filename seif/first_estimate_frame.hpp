@@ -21,8 +21,8 @@ struct FirstEstimate {
 /// bounds of five to ten made no difference.
 inline bool are_levers_alike(const Eigen::Vector2d& first_lever, const Eigen::Vector2d& lever,
                              double sighting_sd) {
-  constexpr double most = 7.0;  // [sigma]
-  return (first_lever - lever).squaredNorm() <= most * most * sighting_sd * sighting_sd;
+  constexpr double most_sigmas = 7.0;  // [sigma]
+  return (first_lever - lever).squaredNorm() <= most_sigmas * most_sigmas * sighting_sd * sighting_sd;
 }
 
 struct FramedPose {

@@ -1,6 +1,7 @@
 #include "sim/bullet_simulator.hpp"
 
 #include <stdexcept>
+#include <vector>
 
 #include "sim/drive_limits.hpp"
 #include "worlds/geometry.hpp"

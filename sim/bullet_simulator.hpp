@@ -6,6 +6,9 @@
 // never stepped. So neither a step nor a scan costs more in a world with more landmarks.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/near_solids.hpp"
 #include "sim/robot_body.hpp"
 #include "sim/sensing_world.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "sim/drive_limits.hpp"
 #include "sim/planar_geometry.hpp"

@@ -2,6 +2,9 @@
 // points that hide nothing and stop nothing. Meant for thousands of runs.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/simulator.hpp"
 #include "worlds/point_grid.hpp"
 

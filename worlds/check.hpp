@@ -1,6 +1,8 @@
 // Checks what a description of single values cannot: whether the parts of a world fit together.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "worlds/describe.hpp"

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <random>
+#include <system_error>
 #include <utility>
 
 #include "worlds/check.hpp"

@@ -1,8 +1,12 @@
 #include "worlds/schema.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "worlds/describe.hpp"
 

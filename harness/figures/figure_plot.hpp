@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Draws <id>.png and <id>.svg in a folder that is there. What went wrong, or nothing.
+/// Draws ID.png and ID.svg into an existing folder. Returns what went wrong, or nothing.
 std::string draw(const Figure& figure, const std::filesystem::path& folder);
 std::string draw(const MatrixFigure& figure, const std::filesystem::path& folder);
 

@@ -22,7 +22,7 @@ std::string draw_picture(const Picture& picture, const std::filesystem::path& fo
 /// In gnuplot's single quotes, between which a quote is the only sign that means anything.
 std::string gnuplot_text(const std::string& text);
 
-/// As gnuplot writes it: '#rrggbb', with the quotes.
+/// As gnuplot writes a colour: six hexadecimal digits after a hash, between single quotes.
 std::string gnuplot_colour(Rgb colour);
 
 }  // namespace harness

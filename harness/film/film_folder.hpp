@@ -2,7 +2,9 @@
 // log, filters are fed with it once more, and the times of their updates are those that were recorded.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -35,7 +35,7 @@ class Recorder final : public RunListener {
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override;
   /// Hands everything to the operating system: what was recorded survives the end of the program.
   void scored() override;
-  /// Writes <estimator>_map.csv.
+  /// Writes ESTIMATOR_map.csv.
   void map(std::size_t estimator, std::span<const MapRecord> landmarks) override;
 
   void close();

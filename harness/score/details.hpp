@@ -22,7 +22,7 @@ namespace harness {
 struct DetailChoices {
   std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] of the relative pose error
   double away = 20.0;                                // [s] after which seeing a landmark again closes a loop
-  /// Where <estimator>_consistency.csv is; empty: in the folder of the run.
+  /// Where ESTIMATOR_consistency.csv is; empty: in the folder of the run.
   std::filesystem::path consistency;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -61,13 +62,13 @@ struct RunScore {
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval);
 
-/// The poses of <name>.tum.
+/// The poses of NAME.tum.
 std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name);
 
-/// The poses of <name>.tum beside the truth, where that is known.
+/// The poses of NAME.tum beside the truth, where that is known.
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name);
 
-/// <name>_map.csv.
+/// The landmarks of NAME_map.csv.
 std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name);
 
 /// The landmarks of a map that the world has too, beside the truth, which is sorted by id.

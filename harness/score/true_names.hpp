@@ -42,7 +42,8 @@ struct Associations {
   std::optional<TrueNames> names;  // where the true ids are known
 };
 
-/// Of <estimator>_associations.csv; nothing of a filter that is told. Throws BadInput, as the next.
+/// Reads ESTIMATOR_associations.csv; nothing for a filter whose associations are known. Throws BadInput, as
+/// the next.
 std::optional<Associations> read_associations(const std::filesystem::path& folder,
                                               const std::string& estimator);
 

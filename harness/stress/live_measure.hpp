@@ -1,6 +1,8 @@
 // The measured part: everything live in Bullet, each stage with its clock.
 #pragma once
 
+#include <atomic>
+
 #include "harness/stress/stress.hpp"
 #include "harness/stress/warm_start.hpp"
 

@@ -93,8 +93,8 @@ class AssociatingFilter final : public Estimator {
 
   void refresh_grid();
   void find_pairs(const Scan& scan);
-  void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most);
-  void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t most);
+  void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);
+  void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t max_count);
   Eigen::Matrix3d pose_covariance_in_map() const;
   int number_of(LandmarkId id);
   bool want_near(const Seen& seen);

@@ -28,9 +28,9 @@ class LandmarkGrid {
   void move(LandmarkId landmark, const Eigen::Vector2d& p_world);
   void remove(LandmarkId landmark);
 
-  /// The nearest ones within `radius` [m], the nearest first, at most `most`; replaces what `out` held. Looks
+  /// The nearest ones within `radius` [m], the nearest first, at most `max_count`; replaces what `out` held. Looks
   /// no farther than `most_rings` cells away.
-  void find_near(const Eigen::Vector2d& p_world, double radius, std::size_t most,
+  void find_near(const Eigen::Vector2d& p_world, double radius, std::size_t max_count,
                  std::vector<Near>& out) const;
 
   std::size_t memory_bytes() const { return lists_.memory_bytes() + landmarks_.memory_bytes(); }

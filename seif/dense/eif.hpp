@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "seif/estimator.hpp"

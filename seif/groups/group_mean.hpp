@@ -1,6 +1,10 @@
 // The mean by rigid groups of landmarks of every size, as Seif asks for it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "seif/groups/multilevel_mean.hpp"
 #include "seif/mean_keeper.hpp"
 

@@ -19,13 +19,13 @@ struct CondensedLandmark {
   int leaf = none;
   int next = none;        // slot of the next landmark of the leaf
   int leaves = 0;         // [-] that mention it, if it is cold
-  int hot = none;         // its place in the zone
+  int zone_index = none;  // in the zone, or none
   int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
   int visit = 0;
   int row = 0;                         // in the part that is being looked at
   Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
   mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
-  Point loose = Point::Zero();         // what no message holds of its residual
+  Point untold = Point::Zero();        // what no message holds of its residual
 };
 
 /// All landmarks below a node, where they move as one rigid body.
@@ -66,7 +66,7 @@ struct CondensationNode {
 
   SentMessage sent;                  // nothing while it is the hub: see CondensationTree::sent()
   int stale_in = 0;                  // number of the plan that has it send anew
-  int planned = none;                // place among the messages of that plan
+  int planned = none;                // index among the messages of that plan
   mutable std::int64_t read_at = 0;  // epoch
   LandmarkGroup group;
   double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size

@@ -18,6 +18,7 @@
 //           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,7 +84,7 @@ class CondensationTree {
 
   // Of landmarks in the zone, straight after solve_window():
 
-  bool is_in_zone(int slot) const { return place(slot).hot != none; }
+  bool is_in_zone(int slot) const { return landmark(slot).zone_index != none; }
   template <class Visit>
   void for_each_in_zone(Visit&& visit) const {
     for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
@@ -107,16 +108,15 @@ class CondensationTree {
  private:
   static constexpr int none = -1;
   static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
-  using Place = CondensedLandmark;
   using Node = CondensationNode;
-  Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
-  const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
+  CondensedLandmark& landmark(int slot) { return landmarks_[static_cast<std::size_t>(slot)]; }
+  const CondensedLandmark& landmark(int slot) const { return landmarks_[static_cast<std::size_t>(slot)]; }
   Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
   template <class Visit>
   void for_each_landmark(int leaf, Visit&& visit) const {
-    for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
+    for (int slot = node(leaf).first_landmark; slot != none; slot = landmark(slot).next) visit(slot);
   }
 
   /// visit(slot, other, Omega) for each block that a leaf owns; those of two leaves are the older one's.
@@ -125,7 +125,7 @@ class CondensationTree {
     for_each_landmark(leaf, [&](int slot) {
       visit(slot, slot, state.information(slot));
       state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-        const int leaf_of_other = place(other).leaf;
+        const int leaf_of_other = landmark(other).leaf;
         if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
         visit(slot, other, Omega_so);
       });
@@ -208,7 +208,7 @@ class CondensationTree {
 
   // The live path.
   int leaf_for(const Eigen::Vector2d& p);
-  int add_leaf(const Eigen::Vector2d& place);
+  int add_leaf(const Eigen::Vector2d& p_world);
   void attach(int leaf);
   bool is_ready(int slot) const;
   void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
@@ -216,7 +216,7 @@ class CondensationTree {
   int settled_at(FrontVariable v) const;
   const Eigen::VectorXd& read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
-  void as_read(FrontVariable v, double* mean) const;
+  void read_mean(FrontVariable v, double* mean) const;
   void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
   void find_step(const Condensed& message) const;
 
@@ -224,14 +224,14 @@ class CondensationTree {
   LeafTree tree_;
   Front front_;  // before what holds its arrays
   ChunkedArray<Node> nodes_;
-  ChunkedArray<Place> places_;  // by slot
+  ChunkedArray<CondensedLandmark> landmarks_;  // by slot
   HotZone zone_;
   SentMessage to_zone_;  // by the hub
   Condensed links_;      // of the hub that is being made ready
   CondensationPlan plan_;
   std::vector<int> hot_leaves_;
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
-  std::vector<int> zone_places_;
+  std::vector<int> zone_indices_;
   std::vector<int> wanted_;            // slots
   mutable Eigen::MatrixXd by_factor_;  // scratch (w x 3+2m), with room to grow
   double view_ = 0.0;                  // how far the robot sees [m]

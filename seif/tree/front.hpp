@@ -76,7 +76,7 @@ class Front {
   std::size_t memory_bytes() const;
 
  private:
-  struct Place {
+  struct Rows {
     int front = 0;  // number of the front in which it was last
     int index = 0;  // among variables_, until it has a row
     int row = 0;
@@ -90,7 +90,7 @@ class Front {
     double weight;
   };
 
-  Place& place(FrontVariable v);
+  Rows& rows_of(FrontVariable v);
   std::size_t index_of(FrontVariable v);
   void give_rows(const Condensed& front);
   void add_targets(FrontVariable v);
@@ -112,7 +112,7 @@ class Front {
   std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
   int front_ = 0;
   int size_ = 0;
-  ChunkedArray<Place> landmarks_, groups_;
+  ChunkedArray<Rows> landmarks_, groups_;
   std::vector<Variable> variables_;
   std::vector<const Condensed*> parts_;
   std::vector<Target> targets_;  // of the rows of one part

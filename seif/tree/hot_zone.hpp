@@ -2,7 +2,7 @@
 //
 // F (2h x 2h) holds all information on the zone's h landmarks but that of the window (InformationState).
 // Those that are active, A, are linked to the robot. The others, P, are eliminated by the sweep operator,
-// which leaves at their place how they follow:
+// which leaves in place how they follow:
 //
 //         A                       P
 //     A [ S = F_AA - F_AP W'      W = F_AP F_PP^-1 ]     the window solves with Omega + S; where the mean of
@@ -27,12 +27,12 @@ class HotZone {
   /// All landmarks of the boundary of what is condensed from without, all in A, at mean zero.
   void load(const Condensed& without);
 
-  /// A landmark of which nothing is known but by the window, in A. Returns its place in the zone.
+  /// A landmark of which nothing is known but by the window, in A. Returns its index in the zone.
   int add(int slot, const Eigen::Vector2d& mean);
 
   int size() const { return static_cast<int>(members_.size()); }
-  int slot(int place) const { return member(place).slot; }
-  bool is_active(int place) const { return member(place).active; }
+  int slot(int index) const { return member(index).slot; }
+  bool is_active(int index) const { return member(index).active; }
 
   auto block(int a, int b) { return F_.block<2, 2>(2 * a, 2 * b); }
   auto block(int a, int b) const { return F_.block<2, 2>(2 * a, 2 * b); }
@@ -40,11 +40,11 @@ class HotZone {
   void add_information(int a, int b, const Eigen::Matrix2d& Omega_ab);
 
   /// From A to P, or from P to A. False, with nothing changed, if their block is not positive definite.
-  [[nodiscard]] bool eliminate(std::span<const int> places) { return sweep(places, 1.0); }
-  [[nodiscard]] bool restore(std::span<const int> places) { return sweep(places, -1.0); }
+  [[nodiscard]] bool eliminate(std::span<const int> indices) { return sweep(indices, 1.0); }
+  [[nodiscard]] bool restore(std::span<const int> indices) { return sweep(indices, -1.0); }
 
-  Eigen::Vector2d mean(int place) const { return mean_.segment<2>(2 * place); }
-  void set_mean(int place, const Eigen::Vector2d& mean) { mean_.segment<2>(2 * place) = mean; }
+  Eigen::Vector2d mean(int index) const { return mean_.segment<2>(2 * index); }
+  void set_mean(int index, const Eigen::Vector2d& mean) { mean_.segment<2>(2 * index) = mean; }
   /// Where all are (2h) when A has moved to mean_of(slot) and P has followed.
   template <class MeanOf>
   void follow(MeanOf&& mean_of, Eigen::VectorXd& means) const {
@@ -69,17 +69,17 @@ class HotZone {
     int slot;
     bool active;
   };
-  const Member& member(int place) const { return members_[static_cast<std::size_t>(place)]; }
+  const Member& member(int index) const { return members_[static_cast<std::size_t>(index)]; }
   void reserve(int landmarks);
-  void list_rest(std::span<const int> places);
+  void list_rest(std::span<const int> indices);
   void spread_change(double sign);
-  bool sweep(std::span<const int> places, double sign);
-  Eigen::Vector2d step_of(int place, const Eigen::VectorXd& d) const;
+  bool sweep(std::span<const int> indices, double sign);
+  Eigen::Vector2d step_of(int index, const Eigen::VectorXd& d) const;
 
   std::vector<Member> members_;
   Eigen::MatrixXd F_;      // symmetric, with room to grow
   Eigen::VectorXd mean_;   // with room to grow, as all below [m]
-  std::vector<int> rest_;  // places that a sweep does not take
+  std::vector<int> rest_;  // indices that a sweep does not take
   Eigen::MatrixXd columns_, swept_, pivot_, change_;
   std::int64_t blocks_touched_ = 0;
 };

@@ -58,7 +58,7 @@ class LeafTree {
   const Box& box(int node) const { return at(node).box; }
   /// Of its box, in the world. [m]
   Eigen::Vector2d centre(int node) const;
-  void widen(int leaf, const Eigen::Vector2d& place);
+  void widen(int leaf, const Eigen::Vector2d& p_world);
 
   int hub() const { return hub_; }
   /// none for the hub.
@@ -88,11 +88,11 @@ class LeafTree {
     });
   }
 
-  /// Visits the leaves whose boxes come nearer to a place than `distance` [m].
+  /// Visits the leaves whose boxes come nearer to p_world than `distance` [m].
   template <class Visit>
-  void for_each_leaf_near(const Eigen::Vector2d& place, double distance, Visit&& visit) {
+  void for_each_leaf_near(const Eigen::Vector2d& p_world, double distance, Visit&& visit) {
     if (root_ == none) return;
-    const Eigen::Vector2d p = in_grid(place);
+    const Eigen::Vector2d p = in_grid(p_world);
     near_.assign(1, root_);
     while (!near_.empty()) {
       const int node = near_.back();
@@ -131,7 +131,7 @@ class LeafTree {
 
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
   const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  Eigen::Vector2d in_grid(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d in_grid(const Eigen::Vector2d& p_world) const;
   int add_node();
   int insert_above(int below);
 

@@ -1,6 +1,10 @@
 // The mean along a condensation tree, as Seif asks for it.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "seif/mean_keeper.hpp"
 #include "seif/tree/condensation_tree.hpp"
 

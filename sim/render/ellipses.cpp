@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace render {
 

@@ -1,8 +1,10 @@
 // A texture of glyphs. Each glyph is drawn into it once.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "sim/render/font.hpp"
 #include "sim/render/gl.hpp"

@@ -1,6 +1,7 @@
 #include "sim/render/ground_pass.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace render {
 

@@ -1,6 +1,8 @@
 // Draws flat marks in one view.
 #pragma once
 
+#include <vector>
+
 #include "sim/render/capsules.hpp"
 #include "sim/render/ellipses.hpp"
 

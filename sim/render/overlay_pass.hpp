@@ -1,6 +1,8 @@
 // Draws the overlay over the whole image.
 #pragma once
 
+#include <vector>
+
 #include "sim/render/capsules.hpp"
 #include "sim/render/glyph_atlas.hpp"
 

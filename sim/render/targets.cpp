@@ -1,5 +1,6 @@
 #include "sim/render/targets.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 

@@ -1,6 +1,9 @@
 // The images that are drawn into.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "sim/render/frame.hpp"
 #include "sim/render/image.hpp"
 #include "sim/render/program.hpp"

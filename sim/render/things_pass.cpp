@@ -1,6 +1,7 @@
 #include "sim/render/things_pass.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace render {
 

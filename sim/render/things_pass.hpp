@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "sim/render/sunlight.hpp"
 #include "sim/render/vertex_array.hpp"

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <variant>
 
 #include "archive.hpp"
 #include "harness/files/bad_input.hpp"

@@ -1,7 +1,9 @@
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "archive.hpp"
 #include "harness/recording/run_folder.hpp"

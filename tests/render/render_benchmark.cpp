@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 #include "scenes.hpp"
 #include "sim/render/renderer.hpp"
 

@@ -21,6 +21,7 @@
 namespace rooms {
 
 using Findings = std::vector<std::string>;
+inline const Findings no_findings;
 
 /// Finds includes against the arrows, libraries and names that do not belong there, headers without a guard,
 /// and sources of chance or time that are not passed in.

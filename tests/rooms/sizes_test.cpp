@@ -8,8 +8,6 @@
 namespace rooms {
 namespace {
 
-const Findings none;
-
 std::string lines(int n) {
   std::string text;
   for (int i = 0; i < n; ++i) text += "a();\n";
@@ -17,8 +15,8 @@ std::string lines(int n) {
 }
 
 TEST(Sizes, OfHeadersAreBounded) {
-  EXPECT_EQ(check_header_length({"seif/a.hpp", lines(150)}), none);
-  EXPECT_EQ(check_header_length({"seif/a.cpp", lines(151)}), none);
+  EXPECT_EQ(check_header_length({"seif/a.hpp", lines(150)}), no_findings);
+  EXPECT_EQ(check_header_length({"seif/a.cpp", lines(151)}), no_findings);
   const Findings expected = {"seif/a.hpp:1: a header of 151 lines"};
   EXPECT_EQ(check_header_length({"seif/a.hpp", lines(151)}), expected);
 }
@@ -26,7 +24,7 @@ TEST(Sizes, OfHeadersAreBounded) {
 TEST(Sizes, OfFunctionsAreBounded) {
   for (const std::string head :
        {"void f() ", "int A::f(int x) const ", "A::A() : a_(1) ", "void f() noexcept "}) {
-    EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", head + "{\n" + lines(48) + "}\n"})), none)
+    EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", head + "{\n" + lines(48) + "}\n"})), no_findings)
         << head;
     const Findings expected = {"a.cpp:1: a function of 51 lines"};
     EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", head + "{\n" + lines(49) + "}\n"})), expected)
@@ -37,7 +35,7 @@ TEST(Sizes, OfFunctionsAreBounded) {
 TEST(Sizes, OfNamespacesAndClassesAreNot) {
   EXPECT_EQ(
       check_function_lengths(parse_source({"a.cpp", "namespace a {\nclass A {\n" + lines(80) + "};\n}\n"})),
-      none);
+      no_findings);
 }
 
 TEST(Sizes, AreThoseOfEachFunctionInTurn) {

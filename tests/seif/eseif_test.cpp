@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cstdint>
 
 #include "dense_oracle.hpp"
 #include "ring_drive.hpp"

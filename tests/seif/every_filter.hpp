@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 

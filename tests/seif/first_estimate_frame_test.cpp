@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "seif/information_state.hpp"
@@ -85,7 +86,7 @@ InformationState closed_loop(double moved = 50.0) {
     state.activate(state.add_landmark(k, k < 4 ? p : Eigen::Vector2d(p.x() + moved, p.y())));
   }
   for (const int slot : {4, 5}) state.move_landmark(slot, {-moved, 0.0});
-  state.move_pose({0.1, 0.0, 0.0});
+  move_to_prediction(state, {0.1, 0.0, 0.0});
   return state;
 }
 
@@ -127,7 +128,7 @@ TEST(FirstEstimateFrame, NewLandmarksHaveTheirFirstEstimateWhereTheyAreFromThePo
   InformationState state = closed_loop();
   for (int slot = 0; slot < 4; ++slot) state.move_landmark(slot, {0.0, 8.0});
   state.move_robot({0.0, 8.0, 0.0});  // an update has moved the robot and all that is near it
-  state.move_pose({0.1, 8.0, 0.0});
+  move_to_prediction(state, {0.1, 8.0, 0.0});
   const int slot = state.add_landmark(99, {2.0, 9.0});
   EXPECT_LT((linearisation_point(state, slot) - Eigen::Vector2d(2.0, 1.0)).norm(), 1e-9);
   EXPECT_LT((lever(state, slot, state.mean(slot)) - Eigen::Vector2d(1.9, 1.0)).norm(), 1e-9);

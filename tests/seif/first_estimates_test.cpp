@@ -225,8 +225,8 @@ InformationState driven(unsigned seed, int steps, int first_estimates) {
 /// The points at which the steps linearise (3+2N x 1).
 Eigen::VectorXd linearisation_points(const InformationState& state) {
   Eigen::VectorXd at = full_mu(state);
-  const Pose2 pose = linearisation_pose(state);
-  at.head<3>() << pose.x, pose.y, pose.theta;
+  const Pose2 point = linearisation_pose(state);
+  at.head<3>() << point.x, point.y, point.theta;
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
     at.segment<2>(InformationState::row_of(slot)) = linearisation_point(state, slot);
   }

@@ -3,9 +3,13 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "seif/dense/ekf.hpp"
 #include "seif/models.hpp"

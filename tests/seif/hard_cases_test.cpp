@@ -5,6 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <random>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>

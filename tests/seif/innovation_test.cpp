@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "path_drive.hpp"
 #include "seif/dense/ekf.hpp"

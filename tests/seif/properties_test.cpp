@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <vector>
 

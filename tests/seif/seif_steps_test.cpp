@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "dense_oracle.hpp"

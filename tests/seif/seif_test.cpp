@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "allocation_counter.hpp"
 #include "ring_drive.hpp"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "sensors/random_stream.hpp"
 

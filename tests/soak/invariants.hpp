@@ -1,6 +1,7 @@
 // Properties that hold for every run, whatever its world.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,9 @@
 // The section `faults`: how it is read, and which faults are refused.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "world_files.hpp"
 
 namespace worlds {

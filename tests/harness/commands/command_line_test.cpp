@@ -1,7 +1,9 @@
 // The program on the command line: exit codes, and which output goes to which stream.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "harness/command_call.hpp"
 #include "harness/estimators/registry.hpp"

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/comparison/parallel_runs.hpp"
 

@@ -5,8 +5,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/score.hpp"

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/score/score_folder.hpp"

@@ -4,9 +4,12 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "harness/command_call.hpp"
 #include "harness/exports/graph.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 
 #include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/estimators/registry.hpp"

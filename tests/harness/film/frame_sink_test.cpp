@@ -9,12 +9,16 @@
 
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/stream/log_description.hpp"

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"

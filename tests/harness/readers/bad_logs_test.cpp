@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <random>
+#include <string>
+#include <variant>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"

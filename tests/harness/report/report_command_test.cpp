@@ -1,7 +1,10 @@
 // `seifbed report` on the command line, and its pages in a browser.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "browser.hpp"
 #include "harness/command_call.hpp"

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"

@@ -1,9 +1,13 @@
 // Filters with numerical failures: each failure is reported, and a filter that is of no more use is stopped.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/scoreboard.hpp"

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <vector>
+
 #include "allocation_counter.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/recording/recorder.hpp"

@@ -5,7 +5,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace harness {
 namespace {

@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <system_error>
+#include <variant>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/scoreboard.hpp"

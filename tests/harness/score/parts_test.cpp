@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"

@@ -5,7 +5,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "harness/statistics/alignment.hpp"
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cstdint>
+
 #include "allocation_counter.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/stress/stress.hpp"

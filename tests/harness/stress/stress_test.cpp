@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 

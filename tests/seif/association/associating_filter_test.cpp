@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -183,16 +186,17 @@ TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
   SeifOptions options;
   options.tree.most_unknowns = 1'000'000;  // no groups, since groups are an approximation
   Seif filter(drive.setup(), options);
+  LocalBelief& belief = *filter.local_belief();
   int passive = 0;
   for (int step = 0; step < drive.steps_for_a_round() + 60; ++step) {
     drive.step(filter);
     if (step % 10 != 0) continue;
-    filter.begin_association(0.0);
+    belief.begin_association(0.0);
     std::vector<LandmarkId> ids;
-    filter.landmarks_at_hand(ids);
+    belief.landmarks_at_hand(ids);
     const auto n = static_cast<Eigen::Index>(3 + 2 * ids.size());
     Eigen::MatrixXd P(n, n);
-    filter.covariance_with(ids, P);
+    belief.covariance_with(ids, P);
     const Eigen::MatrixXd all = oracle::symmetric(full_Omega(filter.state())).inverse();
     Eigen::VectorXi rows(n);
     rows.head<3>() << 0, 1, 2;
@@ -237,7 +241,7 @@ TEST_P(Equate, ConditionsTheBelief) {
   const Eigen::VectorXd d = K * (before[1].mean - before[0].mean);
   const Pose2 pose = filter->pose();
 
-  filter->equate(ids[0], ids[1]);
+  filter->local_belief()->equate(ids[0], ids[1]);
   filter->measurement_update({drive.scan().t, {}}, ignore);
   std::vector<LandmarkEstimate> after;
   filter->landmarks(ids, after);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <span>
 #include <vector>
 
 #include "seif/dense/symmetric_downdate.hpp"

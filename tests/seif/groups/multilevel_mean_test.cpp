@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <random>
 #include <vector>
 
 #include "seif/dense_oracle.hpp"
@@ -38,7 +39,7 @@ struct Mapper {
       if (slot && state.position(*slot) < 0) mean.activate(state, *slot);
       if (slot) state.mark_seen(*slot);
     }
-    mean.before_information(state);
+    EXPECT_TRUE(mean.before_information(state));
   }
 
   void add_known(const Scan& scan) {
@@ -58,7 +59,9 @@ struct Mapper {
       state.mark_seen(slot);
       add(state, linearise(state, slot, z, {}));
     }
-    if (heard) mean.after_information(state);
+    if (heard) {
+      EXPECT_TRUE(mean.after_information(state));
+    }
   }
 
   /// Sparsifies down to `theta_x` links if the robot has more than `theta_max`.

@@ -4,6 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include "allocation_counter.hpp"
@@ -84,15 +87,13 @@ test::PathDrive wide_drive(double side, int landmark_count) {
   return {landmarks, path, 1};
 }
 
-/// Returns the filter after the whole drive.
-Seif driven(test::PathDrive drive, const SeifOptions& options) {
-  Seif filter(drive.setup(), options);
+/// Drives to the end.
+void drive_all(Seif& filter, test::PathDrive drive) {
   while (!drive.at_end()) {
     drive.advance();
     filter.motion_update(drive.odometry());
     filter.measurement_update(drive.scan(), test::ignore);
   }
-  return filter;
 }
 
 /// RMSE between two maps after aligning one to the other: the start's heading, which turns the whole map, has
@@ -120,10 +121,13 @@ TEST(SeifByTree, InAWideMapGroupsSaveWorkAndHardlyMoveTheMap) {
   with_groups.tree.most_blocks = 0;  // no observation waits, so both filters get the same observations
   SeifOptions without_groups = with_groups;
   without_groups.tree.most_unknowns = 1'000'000;
-  const Seif exact = driven(wide_drive(side, landmarks), without_groups);
-  const Seif grouped = driven(wide_drive(side, landmarks), with_groups);
-  EXPECT_LT(grouped.counts().blocks_touched, exact.counts().blocks_touched);
-  const double moved = distance_of_shapes(grouped.map(), exact.map());
+  const test::PathDrive drive = wide_drive(side, landmarks);
+  Seif exact_filter(drive.setup(), without_groups);
+  Seif grouped_filter(drive.setup(), with_groups);
+  drive_all(exact_filter, drive);
+  drive_all(grouped_filter, drive);
+  EXPECT_LT(grouped_filter.counts().blocks_touched, exact_filter.counts().blocks_touched);
+  const double moved = distance_of_shapes(grouped_filter.map(), exact_filter.map());
   EXPECT_GT(moved, 0.0);
   EXPECT_LT(moved, 1e-3);  // a twentieth of the noise of a range
 }
