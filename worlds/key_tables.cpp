@@ -26,12 +26,12 @@ struct Row {
   std::string type;
   std::string fallback;
   std::string meaning;
-  std::vector<std::string> only_for = {};  // kinds; empty: all
+  std::vector<std::string> only_for = {};  // kinds with this key; empty: all
 };
 
-// What a value may be, in words.
+// The allowed values, in words.
 
-constexpr double largest_told = 1e15;  // a limit beyond is that of the number's type
+constexpr double largest_told = 1e15;  // a larger limit is that of the number's type
 
 std::string range_text(const Range& range) {
   std::string text;
@@ -83,13 +83,13 @@ std::string sentence(std::string text) {
   return text.ends_with('.') ? text : text + '.';
 }
 
-/// A vertical bar would end the cell.
+/// A vertical bar would end the table cell, so it is escaped.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;
 }
 
-/// Gathers the rows of one section; the sections inside of it follow as text of their own.
+/// Collects the rows of one section. The tables of inner sections follow as separate text.
 class TableWriter : public Fields {
  public:
   TableWriter(std::string path, std::string help) : path_(std::move(path)), help_(std::move(help)) {}
@@ -170,7 +170,7 @@ class TableWriter : public Fields {
   std::string inner_;
 };
 
-/// A key that several kinds have stands once, with the kinds that have it.
+/// A key that several kinds have gets one row, which names these kinds.
 void TableWriter::variant(std::string_view key, std::string& kind, const std::vector<Case>& cases,
                           std::string_view help, Need need) {
   std::vector<std::string> names;
@@ -200,7 +200,7 @@ void TableWriter::variant(std::string_view key, std::string& kind, const std::ve
   for (const auto& [text, _] : inner) inner_ += text;
 }
 
-/// For each type one that has no options.
+/// An estimator schema without options for each type.
 EstimatorSchemas without_options(const EstimatorSchemas& estimators) {
   EstimatorSchemas bare;
   for (const auto& [type, _] : estimators) bare[type] = [](Fields&, std::map<std::string, OptionValue>&) {};

@@ -1,4 +1,4 @@
-// The reference of all keys of world files, as Markdown: made from the same description that the loader reads by.
+// The reference of all keys of world files, as Markdown. It is made from the description that the loader uses.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace worlds {
 
-/// One table for each section: key, what it may be, default, meaning. The options of estimators are left out:
-/// only the names of the types are told.
+/// One table for each section: key, allowed values, default, meaning. The options of estimators are left out;
+/// only the names of the types are listed.
 std::string key_tables(const EstimatorSchemas& estimators);
 
 }  // namespace worlds
