@@ -44,5 +44,20 @@ TEST(Sizes, AreThoseOfEachFunctionInTurn) {
   EXPECT_EQ(check_function_lengths(parse_source({"a.cpp", text})), expected);
 }
 
+TEST(Sizes, OfClassesAreBoundedByTheirPrivateFunctions) {
+  const std::string open = "class A final : public B<C> {\n public:\n  void a();\n private:\n";
+  const std::string fields =
+      "  std::function<void(int)> f_;\n  int x_ = sum(1, 2);\n  struct S { int g(); int h(); };\n";
+  std::string functions;
+  for (int i = 0; i < 29; ++i) functions += "  int f(int x) const { return g(x); }\n";
+  const std::string last = "  void g(int);\n";
+  EXPECT_EQ(check_private_functions(parse_source({"a.hpp", open + fields + functions + last + "};\n"})),
+            no_findings);
+  const Findings expected = {"a.hpp:1: A has 31 private functions"};
+  EXPECT_EQ(
+      check_private_functions(parse_source({"a.hpp", open + functions + fields + last + last + "};\n"})),
+      expected);
+}
+
 }  // namespace
 }  // namespace rooms
