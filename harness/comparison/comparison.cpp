@@ -77,7 +77,7 @@ std::optional<Estimate> paired_ratio(const Values& values, const Values& baselin
   return ratio_of_means(numerators, denominators);
 }
 
-/// Of each run.
+/// The values of each run.
 Values ratios(const Values& values, const Values& baseline) {
   Values result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {

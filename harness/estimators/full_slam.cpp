@@ -136,7 +136,7 @@ struct Unknowns {
   double* landmark(int i) { return landmarks[static_cast<std::size_t>(i)].data(); }
 };
 
-/// Of a sighting: with s the squared norm of its residual, a^2 log(1 + s / a^2) instead of s.
+/// The loss of a sighting: a^2 log(1 + s / a^2) instead of s, the squared norm of its residual.
 ceres::LossFunction* loss_of(const FullSlam& slam) {
   return slam.robust_above > 0.0 ? new ceres::CauchyLoss(slam.robust_above) : nullptr;
 }

@@ -28,7 +28,7 @@ struct FigureCurve {
 
 struct FigureAxis {
   std::string label = {};
-  bool is_logarithmic = false;  // what is not above zero is left out then
+  bool is_logarithmic = false;  // values that are not above zero are ignored then
 };
 
 /// A strip over the whole width.

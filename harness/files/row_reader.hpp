@@ -33,7 +33,7 @@ class RowReader {
   std::size_t size() const { return cells_.size(); }  // of cells
   std::string_view cell(std::size_t i) const;         // without spaces around it; empty where there is none
 
-  /// Of a cell that is called `name` in complaints.
+  /// Reads a cell; error messages call it `name`.
   double number(std::size_t i, std::string_view name, Finite finite = Finite::required) const;
   std::int64_t integer(std::size_t i, std::string_view name, std::int64_t min, std::int64_t max) const;
   [[noreturn]] void fail(std::size_t i, const std::string& reason) const;

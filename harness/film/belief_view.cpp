@@ -22,7 +22,7 @@ constexpr std::size_t others_read = 256;  // [-] landmarks out of view whose mea
 constexpr std::size_t landmarks_for_each_scan = 50;  // [-] the matrix is read in a pass over the map
 constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly the square of it
 constexpr std::size_t most_refreshed = 10'000;  // [-] landmarks; larger maps are not read as a whole
-// Of what is drawn in a frame there are at most, about:
+// A frame draws at most about this many of each:
 constexpr std::size_t most_links = 2000;     // [-] the strongest
 constexpr std::size_t most_dots = 4000;      // [-] of landmarks; any
 constexpr std::size_t most_ellipses = 1000;  // [-] likewise, and lines of error
@@ -165,7 +165,7 @@ bool BeliefView::Refresh::is_due(std::size_t period) {
   return true;
 }
 
-/// Of what is in view, where they are at hand.
+/// Draws the ellipses of the landmarks in view whose covariances are at hand.
 void BeliefView::read_covariances(const worlds::FilmLayers& layers) {
   if (!layers.ellipses || estimator_.filter->belief_matrix() != seif::BeliefMatrix::covariance) return;
   const auto belief = estimator_.filter->marginal_covariances(in_view_);

@@ -76,7 +76,7 @@ class BeliefView {
   void append_robot(const Gaze& gaze, const worlds::FilmLayers& layers,
                     const std::optional<seif::Pose2>& true_pose, render::Things& things) const;
 
-  /// Of something that is not read for each frame.
+  /// For something that is not read for each frame.
   struct Refresh {
     std::size_t scans = 0;  // [-] since the last one
     bool was_done = false;
@@ -108,7 +108,7 @@ class BeliefView {
   std::optional<Eigen::Matrix3d> pose_covariance_;                     // where it is known
   std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as it was when last read
 
-  // Of the present frame; reused.
+  // What belongs to the present frame; reused.
   seif::Pose2 pose_;
   std::vector<seif::LandmarkId> in_view_;
   std::vector<seif::LandmarkEstimate> read_;

@@ -44,7 +44,7 @@ std::vector<std::string> filmed_estimators(const worlds::World& world);
 FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
                      std::optional<double> to);
 
-/// Of all of a world that runs live.
+/// Everything of a world that runs live.
 FilmPlan film_plan(const worlds::World& world);
 
 class Film final : public RunListener {

@@ -30,7 +30,7 @@ struct FilmOptions {
 void add_film_options(CLI::App& command, FilmOptions& options);
 
 /// The part of them that stands in world files, as overrides `film.key=value`: whoever reads the world finds
-/// what is wrong with it. Throws BadInput for a size that is none.
+/// what is wrong with it. Throws BadInput for an invalid size.
 std::vector<std::string> film_overrides(const FilmOptions& options);
 
 }  // namespace harness

@@ -79,7 +79,7 @@ LogNoise read_noise(const NoiseChoices& choices, const LogNoise& fallback) {
   if (has_any(document, odometry_keys)) noise.odometry = noise.odometry.value_or(OdometryNoise{});
   if (has_any(document, sensor_keys)) noise.sensor = noise.sensor.value_or(SensorNoise{});
   const auto describe_all = [&](worlds::Fields& fields) {
-    // Keys of what stays as it stands in the log are known, but nobody wants their values.
+    // Keys of noise that stays unchanged are known, but their values are not used.
     OdometryNoise no_odometry;
     SensorNoise no_sensor{1.0, 0.0, 1.0};
     describe(fields, noise.odometry ? *noise.odometry : no_odometry);

@@ -21,13 +21,13 @@ struct OdometryNoise {
   double turn_sd_per_sqrt_rad = 0.0;    // [-] sqrt(rad)
 };
 
-/// Nothing: as it stands in the log.
+/// Nothing: the values of the log are used.
 struct LogNoise {
   std::optional<OdometryNoise> odometry;
   std::optional<SensorNoise> sensor;
 };
 
-/// Of an increment, in its own frame. (3 x 3) [m, rad]
+/// The covariance of an increment, in its own frame. (3 x 3) [m, rad]
 Eigen::Matrix3d covariance(const OdometryNoise& noise, const seif::Pose2& T_previous_current);
 
 /// What the command line says about it: a file, and `noise.key=value`, which wins.

@@ -129,7 +129,7 @@ LogNoise default_noise(LogFormat format) {
 std::string default_settings(LogFormat format) {
   // Some of the other filters would take hours over a long log.
   if (format == LogFormat::own) return "estimators: {ekf: {}, seif: {}, seif_report: {}}";
-  if (format == LogFormat::victoria_park) {  // trees without names, and much that is none
+  if (format == LogFormat::victoria_park) {  // trees without names, and many objects that are no trees
     const std::string chosen = "{association: joint, admit_after: 8, forget_after: 5, remove_below: 0.2}";
     return fmt::format("estimators: {{ekf: {0}, seif: {0}}}", chosen);
   }

@@ -86,7 +86,7 @@ std::optional<GraphEdge> GraphEdges::next() {
   return std::nullopt;
 }
 
-/// Of the kind that is asked for; the other's rows are left to who reads those.
+/// Reads rows of the requested kind; another reader takes the other rows.
 std::optional<GraphEdge> GraphEdges::read_edge() {
   while (rows_.next()) {
     const std::string_view word = rows_.cell(0);

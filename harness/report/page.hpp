@@ -24,7 +24,7 @@ struct Table {
   std::string note = {};           // below; empty: none
 };
 
-/// A long text as it stands, folded away.
+/// A long text, unchanged, folded away.
 struct Listing {
   std::string title = {};
   std::string text = {};

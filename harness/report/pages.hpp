@@ -14,10 +14,10 @@ namespace harness {
 /// hold.
 Page run_page(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 
-/// Of a sweep that is finished.
+/// The page of a finished sweep.
 Page sweep_page(const std::filesystem::path& folder);
 
-/// Of a stress test.
+/// The page of a stress test.
 Page stress_page(const std::filesystem::path& folder);
 
 /// The page that fits to what is in the folder.

@@ -29,7 +29,7 @@ FigureCurve curve_of(const Drawn& estimator, Mark mark, Points points) {
   return {estimator.name, estimator.colour, mark, std::move(points.x), std::move(points.y)};
 }
 
-/// Leaves out what is not finite.
+/// Ignores values that are not finite.
 void add(double x, double y, Points& points) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
   points.x.push_back(x);

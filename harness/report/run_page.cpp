@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const Summary& summary) {
   return names;
 }
 
-/// Of the estimators, where the settings of the run say it; else their names.
+/// The types of the estimators where the settings of the run name them; otherwise their names.
 std::vector<std::string> types_of(const std::filesystem::path& folder, const std::vector<std::string>& names,
                                   const seif::Registry& registry) {
   std::vector<std::string> types = names;

@@ -111,7 +111,7 @@ class LiveLoop {
   std::vector<TrueNames> true_names_;          // of each estimator that gives names of its own
   seif::Scan scaled_scan_;                     // reused from scan to scan
 
-  // Of the measurement update that runs now.
+  // The state of the measurement update that is running.
   seif::StageDone stage_done_;
   UpdateTimes* running_ = nullptr;
   Clock::time_point stage_begin_;

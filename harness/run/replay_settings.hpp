@@ -20,7 +20,7 @@ struct ReplayChoices {
 };
 
 /// From the world.yaml or the replay.yaml of the log; for a log without, as `choices` or, if they do not say,
-/// as the format tells. Throws BadInput for a choice that is none.
+/// as the format tells. Throws BadInput for an unknown choice.
 worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                         const seif::Registry& registry);
 

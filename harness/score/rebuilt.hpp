@@ -26,7 +26,7 @@ struct ScanNisScore {
   std::optional<double> inside;  // [-] share of them, each in the band of its own degrees of freedom
 };
 
-/// Of a right filter innovations are independent from scan to scan, so that the chi-square values add up.
+/// The innovations of a consistent filter are independent from scan to scan, so their chi-square values add up.
 ScanNisScore score_scans(std::span<const ScanNis> scans);
 
 /// What is not available is nothing.

@@ -11,7 +11,7 @@ namespace harness {
 
 /// Follows the innovations of one estimator. Constant time and memory.
 ///
-/// Of a right filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of
+/// For a consistent filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of
 /// freedom as numbers were measured. The test fires where the sum over the last `window` scans that saw known
 /// landmarks is beyond highest_nis(); or where the filter's gate has left out more of what was known than it
 /// let in.

@@ -14,7 +14,7 @@ namespace harness {
 /// The truth of a log at any moment, for moments that come in order, as a TruthTrack of truth.csv.
 class TruthReader {
  public:
-  /// Of the log in this folder, with the longest gap that its log.yaml tells.
+  /// Opens the log in this folder, with the longest gap that its log.yaml states.
   explicit TruthReader(const std::filesystem::path& folder);
 
   TruthReader(const std::filesystem::path& file, double longest_gap);

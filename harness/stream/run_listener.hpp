@@ -1,4 +1,4 @@
-// Who follows a run as it goes: the recorder, a film. And what they are told.
+// The listeners of a run, such as the recorder or a film, and the records that they get.
 #pragma once
 
 #include <Eigen/Core>
@@ -64,7 +64,7 @@ class RunListener {
   virtual void consistency(std::size_t /*estimator*/, const ConsistencyRecord& /*record*/) {}
   /// A scoring time is over.
   virtual void scored() {}
-  /// Of an estimator, once, at the end.
+  /// The map of an estimator, once, at the end.
   virtual void map(std::size_t /*estimator*/, std::span<const MapRecord> /*landmarks*/) {}
 };
 

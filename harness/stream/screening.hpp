@@ -19,9 +19,9 @@ namespace harness {
 /// Why something is left out.
 enum class Rejection {
   odometry_not_finite,
-  odometry_out_of_range,  // further than anything drives in one increment, or a covariance that is none
+  odometry_out_of_range,  // farther than any robot drives in one increment, or an invalid covariance
   observations_not_finite,
-  observations_out_of_range  // a negative range or one beyond the sensor's, or a covariance that is none
+  observations_out_of_range  // a range below zero or beyond the sensor's, or an invalid covariance
 };
 inline constexpr std::size_t rejection_count = 4;  // [-]
 

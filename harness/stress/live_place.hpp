@@ -24,7 +24,7 @@ struct LiveSamples {
   std::vector<double> step_us;    // physics steps
   std::vector<double> scan_us;    // scans
   std::vector<double> update_us;  // of the estimator, if there is one
-  std::vector<double> rest_us;    // of cycles from scan to scan: what is none of the above
+  std::vector<double> rest_us;    // rest of a cycle from scan to scan: everything else
   std::vector<double> cycle_us;   // whole cycles
   std::vector<double> blocks;     // [-] touched by each update
   sim::SimulatorCounts counts;

@@ -15,7 +15,7 @@ struct StageScaling {
   std::string name;
   std::vector<double> landmarks;  // [-]
   std::vector<double> us;         // p50
-  /// Of log time against log landmarks: 0 is constant time, 2 that of a dense filter.
+  /// The slope of log time against log landmarks: 0 is constant time, 2 is a dense filter.
   std::optional<Estimate> slope;
 };
 

@@ -17,7 +17,7 @@ namespace harness {
 
 struct WarmStart {
   std::unique_ptr<Believers> believers;  // those that are left
-  /// Of those that took too long: the name, and how far they came.
+  /// The estimators that took too long: the name, and how far they came.
   struct GivenUp {
     std::string name;
     std::string why;

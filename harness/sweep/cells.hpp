@@ -40,7 +40,7 @@ class CellFolder {
  public:
   explicit CellFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Of all `count` cells, by index.
+  /// The states of all `count` cells, by index.
   std::vector<CellState> states(std::size_t count) const;
 
   /// The text of a cell that is done, or why it failed.

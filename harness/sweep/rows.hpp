@@ -22,7 +22,7 @@ struct EstimatorRow {
   std::vector<NamedValue> times;   // what was measured with a clock
 };
 
-/// Of a summary.json. Throws BadInput, which names `file`, if it is none.
+/// Reads the rows of a summary.json. Throws BadInput, which names `file`, if the text is not one.
 std::vector<EstimatorRow> rows_of(const std::string& summary, const std::string& file);
 
 }  // namespace harness

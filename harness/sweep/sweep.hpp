@@ -48,7 +48,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
 bool run_cells(const SweepFolder& sweep, const Shard& shard, int jobs, bool quiet,
                const seif::Registry& registry);
 
-/// Of a sweep none of whose cells is open any more.
+/// For a sweep without open cells.
 Aggregate read_aggregate(const SweepFolder& sweep);
 
 /// Writes runs.csv, times.csv, aggregate.csv and aggregate.json once no cell is open any more.

@@ -28,7 +28,7 @@ class StatusLine {
   Clock::time_point last_ = begin_;
 };
 
-/// Of one run.
+/// The progress of one run.
 class Progress {
  public:
   /// `end_t` [s]: where the run ends, if that is known.
@@ -42,7 +42,7 @@ class Progress {
   std::optional<double> end_t_;
 };
 
-/// Of many things that take about the same time each.
+/// The progress of many tasks that take about the same time each.
 class CountProgress {
  public:
   /// `what`: their name in the plural.
