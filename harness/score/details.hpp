@@ -1,4 +1,4 @@
-// What `seifbed score` tells of a run beyond its summary, from the files of its folder. Definitions:
+// What `seifbed score` says about a run beyond its summary, from the files of its folder. Definitions:
 // docs/scores.md.
 #pragma once
 
@@ -26,17 +26,17 @@ struct DetailChoices {
   std::filesystem::path consistency;
 };
 
-/// What is not available is nothing.
+/// A score that is not available is empty.
 struct EstimatorDetails {
   std::string name;
   std::vector<RelativePoseError> rpe;              // at each of the distances
-  std::optional<MapCounts> map;                    // where the world's landmarks are known
+  std::optional<MapCounts> map;                    // if the world's landmarks are known
   std::optional<double> landmark_rmse_from_robot;  // [m] at the end
   std::size_t poses_scored = 0;                    // [-] moments with a NEES of the pose
   std::optional<double> pose_inside;               // [-] the share of them inside the chi-square band
   std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
-  RebuiltScore rebuilt;                            // by a replay, where there was one
-  std::optional<DistanceFromReference> from_reference;  // where a reference was asked for
+  RebuiltScore rebuilt;                            // by a replay, if there was one
+  std::optional<DistanceFromReference> from_reference;  // if a reference was asked for
   std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] of the position
 };
 

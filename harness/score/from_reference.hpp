@@ -1,4 +1,4 @@
-// How far an estimate lies from that of a reference: what there is to say where the truth is not known.
+// The distance of an estimate from that of a reference, for runs without truth.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ struct ReferenceEstimate {
 };
 
 struct DistanceFromReference {
-  PointScore landmarks;   // [m] of those that both have
+  PointScore landmarks;   // [m] of the landmarks that both have
   PointScore trajectory;  // [m] of the positions at the times that both have
 };
 
-/// Of the estimator's map and trajectory in the folder of a run. Throws BadInput.
+/// Compares the estimator's map and trajectory in the folder of a run. Throws BadInput.
 DistanceFromReference distance_from_reference(const std::filesystem::path& folder, const std::string& name,
                                               const ReferenceEstimate& reference);
 

@@ -17,8 +17,8 @@ struct SeenScan {
   std::vector<seif::LandmarkId> landmarks;
 };
 
-/// The scans, by index, at which a landmark is seen that was seen before and then not for `away` [s] or
-/// longer; for each return the first of them: none follows within `away` of another.
+/// The loop closures, as indices of scans: a landmark is seen that was seen before, and then not for `away` [s]
+/// or longer. Only the first such scan of each return counts: no closure follows within `away` of another.
 std::vector<std::size_t> loop_closures(std::span<const SeenScan> scans, double away);
 
 /// Updates since a closure at which the response is taken; -1 is the last update before it. [-]

@@ -1,4 +1,4 @@
-// Which landmarks of the world a map has, and what else it has. Definitions: docs/scores.md.
+// Counts of missed, spurious and duplicate landmarks of a map. Definitions: docs/scores.md.
 #pragma once
 
 #include <set>
@@ -12,10 +12,10 @@ namespace harness {
 struct MapCounts {
   int missed = 0;     // [-] landmarks that were seen, and are not in the map
   int spurious = 0;   // [-] in the map, and not in the world
-  int duplicate = 0;  // [-] of the spurious: those where the map has a landmark of the world already
+  int duplicate = 0;  // [-] spurious ones near a landmark of the world that the map has already
 };
 
-/// How near to a landmark a second one is its duplicate, once the map lies on the world. [m]
+/// A spurious landmark this near to another is its duplicate, after the map is aligned to the world. [m]
 inline constexpr double duplicate_radius = 0.5;
 
 /// `truth` is sorted by id. `seen` are the ids of the landmarks of the world that any scan holds.

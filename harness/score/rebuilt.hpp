@@ -1,5 +1,4 @@
-// Scores for which the folder of a run holds too little: a replay of it rebuilds them. Definitions:
-// docs/scores.md.
+// Scores that need more than the files of a run: a replay rebuilds what is missing. Definitions: docs/scores.md.
 #pragma once
 
 #include <Eigen/Core>

@@ -27,7 +27,7 @@ struct PointPair {
 
 /// Root mean square distance of points; nothing without points.
 struct PointScore {
-  std::optional<double> rmse;          // [m] as they are
+  std::optional<double> rmse;          // [m] without alignment
   std::optional<double> rmse_aligned;  // [m] after the rigid motion that brings them closest to the truth
 };
 
@@ -48,8 +48,9 @@ RelativePoseError relative_pose_error(std::span<const PosePair> poses, double in
 /// The same over all pairs that are `distance` [m] apart along the true path.
 RelativePoseError relative_pose_error_along_path(std::span<const PosePair> poses, double distance);
 
-/// For each value the one behind it that is nearest to it and `apart` more, the first of equals, if it is so
-/// within a tenth of `apart`: indices. The values never fall, and `apart` is more than zero.
+/// Pairs of indices: for each value the later one that is nearest to `apart` more than it, the first of equals.
+/// A pair whose distance differs from `apart` by more than a tenth is left out. The values never fall, and
+/// `apart` is more than zero.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_apart(std::span<const double> values, double apart);
 
 /// Root mean square distance of points as seen from the robot, each pair from its own pose; nothing without
@@ -65,8 +66,8 @@ std::optional<double> nees(const Eigen::VectorXd& error, const Eigen::MatrixXd& 
 /// Estimate minus truth; the heading's in (-pi, pi]. (3 x 1) [m, m, rad]
 Eigen::Vector3d pose_error(const seif::Pose2& est_pose, const seif::Pose2& true_pose);
 
-/// Of a sample, by the nearest rank: the smallest value that at least so many percent of the values do not
-/// exceed.
+/// Percentiles of a sample by the nearest rank: the smallest value that at least this share of the values does
+/// not exceed.
 struct Percentiles {
   double p50 = 0.0;
   double p95 = 0.0;

@@ -14,7 +14,7 @@
 
 namespace harness {
 
-/// What is not available, because the truth or the filter's covariance is not known, is nothing.
+/// A score is empty if the truth or the filter's covariance is not known.
 struct EstimatorScore {
   std::string name;
   std::optional<int> landmarks_mapped;        // [-]
@@ -26,21 +26,22 @@ struct EstimatorScore {
   std::optional<double> nees_pose_final;      // [-]
   std::optional<double> nees_landmark;        // [-] mean over the scoring times
   std::optional<double> nees_landmark_final;  // [-]
-  int improper_beliefs = 0;                   // [-] scoring times at which the belief was no proper Gaussian
-  std::optional<double> improper_t;           // [s] the first of them
-  std::optional<double> diverged_t;           // [s] when the test of innovations first fired
-  std::optional<double> worst_nis;            // [-] the largest over a window of scans
-  std::optional<double> diverged_nees_t;      // [s] the first scoring time with too high a NEES of the pose
-  std::optional<Percentiles> update_us;       // [us]
+  int improper_beliefs = 0;               // [-] scoring times with a matrix that was not positive definite
+  std::optional<double> improper_t;       // [s] the first of them
+  std::optional<double> diverged_t;       // [s] when the test of innovations first fired
+  std::optional<double> worst_nis;        // [-] the largest over a window of scans
+  std::optional<double> diverged_nees_t;  // [s] the first scoring time with too high a NEES of the pose
+  std::optional<Percentiles> update_us;   // [us]
   std::array<std::optional<Percentiles>, stage_count> stage_us;  // [us]
   std::optional<Percentiles> blocks_touched;                     // [-] by an update
   std::optional<std::int64_t> links;                             // [-] after the last update
   std::optional<std::int64_t> links_max;                         // [-]
   std::optional<std::int64_t> relocations;                       // [-] in all
   std::optional<std::int64_t> gated;                             // [-] observations left out in all
-  std::optional<std::int64_t> weakened;                          // [-] observations that counted less, in all
-  std::optional<double> associations_right;     // [-] share of those that an estimator found by itself
-  std::optional<double> associations_left_out;  // [-] share of the observations that it took for nothing
+  std::optional<std::int64_t> weakened;  // [-] observations that got less weight, in all
+  std::optional<double>
+      associations_right;  // [-] share of correct ones, if the estimator associates by itself
+  std::optional<double> associations_left_out;  // [-] share of the observations that it ignored
   std::optional<Percentiles> mean_residual;     // [-] after an update
   std::optional<double> anchoring;              // [nat] left out in all
   std::optional<std::int64_t> active_max;       // [-]
