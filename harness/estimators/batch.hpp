@@ -1,4 +1,4 @@
-// The least-squares optimum of everything measured so far: what no filter can beat, as a reference.
+// The least-squares optimum of everything measured so far, as a reference for the filters.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,14 @@
 
 namespace harness {
 
-/// Keeps all the data, and solves for all poses and landmarks when it is asked for the map. Not in constant
-/// time, nor in constant memory. On the live path its pose is that of its guide, a filter that runs along and
-/// gives the map from which the optimum is sought; each time anew, so that the optimum depends on the data
-/// alone and not on when it was asked for before. Its links are the observations: poses stay in the graph, so
-/// landmarks are linked to them and not to each other.
+/// Stores all data, and solves for all poses and landmarks when the map is asked for: neither in constant time
+/// nor in constant memory. On the live path its pose is that of its guide, a filter whose map is the first guess.
+/// Each solution starts anew, so that the optimum depends on the data alone. Its links are the observations:
+/// poses stay in the graph, so landmarks are linked to them and not to each other.
 class Batch final : public seif::Estimator {
  public:
   /// `guide` is made from the same set-up, and refuses it if the start covariance is not positive definite.
-  /// Sightings that are further off than `robust_above` [sigma] weigh less; 0: none does.
+  /// Sightings more than `robust_above` [sigma] off get less weight. 0: never.
   Batch(const seif::EstimatorSetup& setup, std::unique_ptr<seif::Estimator> guide, double robust_above = 0.0);
 
   void motion_update(const seif::Odometry& odometry) override;
@@ -31,7 +30,7 @@ class Batch final : public seif::Estimator {
   seif::Counts counts() const override;
   std::size_t memory_bytes() const override;
 
-  /// The guide's, unless it was solved for since the last update: in a look at a few it is not solved for.
+  /// The guide's, unless the optimum was computed since the last update: a few landmarks are not worth a solution.
   void landmarks(std::span<const seif::LandmarkId> landmarks,
                  std::vector<seif::LandmarkEstimate>& out) const override;
 
@@ -40,7 +39,7 @@ class Batch final : public seif::Estimator {
   std::optional<seif::MarginalCovariances> marginal_covariances(
       std::span<const seif::LandmarkId> landmarks) const override;
 
-  /// Nothing unless it was solved for since the last update.
+  /// Nothing unless the optimum was computed since the last update.
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const seif::LandmarkIds> groups) const override;
 
@@ -48,13 +47,13 @@ class Batch final : public seif::Estimator {
   std::vector<seif::Pose2> trajectory() const;
 
  private:
-  /// What follows from the data; gone when more of it comes.
+  /// The solution, until more data come.
   struct Solved {
     FullSlamOptimum optimum;
     std::optional<seif::DiagonalBlocksOfInverse> Sigma;  // nothing: not positive definite
   };
 
-  /// Where the robot was at a scan.
+  /// The robot's pose at a scan.
   struct ScanPose {
     int pose = 0;  // the number of the pose before it
     seif::Pose2 T_pose_robot;

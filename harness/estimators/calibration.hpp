@@ -1,5 +1,4 @@
-// The noise of odometry and sensor from logs whose landmarks are known: the one that makes what was measured
-// most likely.
+// The noise of odometry and sensor from logs whose landmarks are known, by maximum likelihood.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace harness {
 
-/// What localisation on a known map needs of a log.
+/// The part of a log that localisation on a known map needs.
 struct CalibrationLog {
   struct Event {
     bool is_motion = false;
@@ -27,7 +26,7 @@ struct CalibrationLog {
   std::int64_t observations = 0;
 };
 
-/// Reads a log to its end. Throws BadInput for one without true landmarks, or of which none was seen.
+/// Reads a log to its end. Throws BadInput for a log without true landmarks, or if none of them was seen.
 CalibrationLog read_for_calibration(RecordedLog& log);
 
 /// The parameters of the noise in this order: along, across, heading by the way, heading by turns; range,

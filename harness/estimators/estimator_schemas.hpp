@@ -1,4 +1,4 @@
-// The options of the registered estimators, as the world loader wants to know them.
+// The options of the registered estimators, for the world loader.
 #pragma once
 
 #include "seif/registry.hpp"

@@ -1,5 +1,4 @@
-// The full SLAM problem of a recorded stream, every pose and every landmark at once, and its least-squares
-// optimum.
+// The full SLAM problem of a recorded stream, with every pose and every landmark, and its least-squares optimum.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +18,7 @@ struct Sighting {
   seif::Observation observation;
 };
 
-/// What there is to fit. Terms are weighted by the covariances that come with them.
+/// The terms of the optimisation, weighted by their covariances.
 struct FullSlam {
   seif::PoseEstimate start;             // of pose 0
   std::vector<seif::Odometry> motions;  // from pose i to pose i + 1
@@ -41,22 +40,21 @@ struct FullSlamOptimum {
 /// Two motions in a row as one, its covariance to first order.
 seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second);
 
-/// Makes the covariance of a pose and of landmarks, [x y theta m1x m1y ...], that after a motion from this
-/// pose, to first order. (3+2k x 3+2k)
+/// Propagates the covariance of a pose and landmarks, [x y theta m1x m1y ...], through a motion from this pose,
+/// to first order. (3+2k x 3+2k)
 void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odometry& motion);
 
-/// Whether a motion is so certain that what was seen after it may count as seen from where it began.
+/// Whether a motion is so certain that observations after it may count as observations from its beginning.
 bool is_certain(const seif::Odometry& motion);
 
 /// The inverse of a motion's covariance, whatever its rank: no direction is known better than to 3e-6 m or
 /// rad.
 Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance);
 
-/// The poses for a map that is taken as known: an extended Kalman filter of the pose alone.
+/// The poses for a known map, by an extended Kalman filter of the pose alone.
 std::vector<seif::Pose2> poses_on_map(const FullSlam& slam, std::span<const Eigen::Vector2d> landmarks);
 
-/// Minimises the sum of squared residuals from a first guess. Throws std::runtime_error if that does not
-/// converge.
+/// Minimises the sum of squared residuals from a first guess. Throws std::runtime_error if it does not converge.
 FullSlamOptimum optimum(const FullSlam& slam, std::span<const seif::Pose2> poses,
                         std::span<const Eigen::Vector2d> landmarks);
 

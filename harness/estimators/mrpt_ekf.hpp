@@ -15,9 +15,9 @@
 
 namespace harness {
 
-/// Has the stream's own covariances of the motions, and as its one measurement noise for a scan the mean of
-/// the variances that come with it. It takes in motions with the next scan that sees a landmark; until then
-/// they are added here. It counts no blocks.
+/// Uses the stream's covariances of the motions, and for each scan one measurement noise: the mean of the scan's
+/// variances. MRPT takes motions in with the next scan that sees a landmark; until then they are added up here.
+/// It counts no blocks.
 class MrptEkf final : public seif::Estimator {
  public:
   explicit MrptEkf(std::unique_ptr<peers::MrptFilter> filter) : filter_(std::move(filter)) {}
@@ -46,10 +46,10 @@ class MrptEkf final : public seif::Estimator {
   std::vector<peers::Sighting> seen_;  // reused from scan to scan
 };
 
-/// Where the build puts the module with MRPT in it.
+/// The path of the module that contains MRPT.
 std::filesystem::path peers_module();
 
-/// `mrpt_ekf`, which can be made where the module is; where it is not, that throws BadInput.
+/// `mrpt_ekf`. Making one throws BadInput if the module is missing.
 seif::EstimatorType mrpt_ekf_estimator(const std::filesystem::path& module = peers_module());
 
 }  // namespace harness

@@ -5,7 +5,7 @@
 
 namespace harness {
 
-/// Those of seif/, and `batch`.
+/// The estimators of seif/, `batch` and `mrpt_ekf`.
 seif::Registry known_estimators();
 
 }  // namespace harness

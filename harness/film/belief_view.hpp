@@ -1,4 +1,4 @@
-// What an estimator believes, as it is drawn: only what is in view is read from it.
+// The belief of one estimator as it is drawn. Only what is in view is read from the estimator.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@
 
 namespace harness {
 
-/// What a frame needs to know of the camera that looks at a belief.
+/// The camera's part in drawing a belief.
 struct Gaze {
   Frustum frustum;
   Area area;             // [m] of the ground that is in view
@@ -42,9 +42,9 @@ class BeliefView {
   /// smoothly as the robot.
   void look(const Gaze& gaze, const seif::Pose2& T_since, const worlds::FilmLayers& layers);
 
-  /// Takes note of new landmarks, and reads what is not read for each frame if it is due: the matrix, and
-  /// covariances that must be computed.
-  /// Part of look(); between frames it lets charts know the past.
+  /// Notes new landmarks. Reads the matrix and computed covariances if they are due: they are not read for each
+  /// frame.
+  /// Part of look(). Between frames it gives the charts their values.
   void refresh(const worlds::FilmLayers& layers);
 
   /// What look() has read.

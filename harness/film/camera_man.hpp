@@ -1,4 +1,4 @@
-// Where the camera stands in each frame, and what of the ground it sees.
+// The camera of each frame, and the part of the ground that it sees.
 #pragma once
 
 #include <Eigen/Core>

@@ -35,11 +35,11 @@ struct FilmPlan {
   FilmClock clock;
 };
 
-/// Which estimators of a world a film shows: those that it names; otherwise seif and ekf; otherwise the first
-/// two.
+/// The estimators that a film shows: those that the world's film section names; otherwise seif and ekf;
+/// otherwise the first two.
 std::vector<std::string> filmed_estimators(const worlds::World& world);
 
-/// From `from` to `to` [s] of simulated time after the run's start. Throws BadInput if that is no time of the
+/// From `from` to `to` [s] of simulated time after the run's start. Throws BadInput for times outside the
 /// run.
 FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
                      std::optional<double> to);
@@ -53,10 +53,10 @@ class Film final : public RunListener {
   /// to install if something is missing, and BadInput for an estimator that is not there.
   Film(FilmPlan plan, const LogDescription& log, const Believers& believers, std::unique_ptr<FrameSink> sink);
 
-  /// `goes_on` is called after each frame; once it returns false there are no more.
+  /// `goes_on` is called after each frame; after it returns false no frame is drawn.
   void after_each_frame(std::function<bool()> goes_on) { goes_on_ = std::move(goes_on); }
 
-  /// What goes wrong with the film does not end the run: finish() tells.
+  /// An error of the film does not end the run: finish() reports it.
   void odometry(const OdometryEvent& event) override;
   void scan(const ScanEvent& event) override;
   void dead_reckoning(double t, const seif::Pose2& T_world_robot) override;

@@ -1,4 +1,4 @@
-// When the frames of a film are: simulated time drives them, no other clock.
+// The times of a film's frames. Only simulated time counts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The film of a finished run, from its folder: nothing is simulated again. Truth and wheel angles are in the
-// log, filters are fed with it once more, and the times of their updates are those that were recorded.
+// The film of a finished run, from its folder. Nothing is simulated again: truth and wheel angles are in the
+// log, the filters get the log once more, and the times of their updates are the recorded ones.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct FilmableFolder {
   FilmPlan plan;       // but for the clock
 };
 
-/// What is wrong with the settings is appended to `problems`; then there is nothing to film. `overrides` are
+/// Appends errors of the settings to `problems`; then there is nothing to film. `overrides` are
 /// of a world file's film section. Throws BadInput if the log cannot be read, or for an
 /// override of something else.
 std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,

@@ -11,7 +11,7 @@ class App;
 
 namespace harness {
 
-/// What is empty is not said.
+/// An empty value means that the option was not given.
 struct FilmOptions {
   std::string out;                      // a file
   std::string camera;                   //
@@ -29,8 +29,8 @@ struct FilmOptions {
 /// `options` must outlive the parsing.
 void add_film_options(CLI::App& command, FilmOptions& options);
 
-/// The part of them that stands in world files, as overrides `film.key=value`: whoever reads the world finds
-/// what is wrong with it. Throws BadInput for an invalid size.
+/// The options that are also keys of world files, as overrides `film.key=value`: the world's reader checks
+/// them. Throws BadInput for an invalid size.
 std::vector<std::string> film_overrides(const FilmOptions& options);
 
 }  // namespace harness

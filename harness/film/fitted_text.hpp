@@ -1,4 +1,4 @@
-// Text that keeps to the room that there is.
+// Text cut to the available width.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// The text, or as much of it as is no wider than `room` [px], with an ellipsis.
+/// The text, cut with an ellipsis if it is wider than `room` [px].
 std::string fitted(std::string text, float size, render::Weight weight, float room);
 
 }  // namespace harness

@@ -16,7 +16,7 @@ struct FrameFormat {
 
 class FrameSink {
  public:
-  /// A film that is not finished is left as NAME.part: what was written up to then can be seen.
+  /// An unfinished film stays as NAME.part; the part written so far can be played.
   virtual ~FrameSink() = default;
   /// Throws std::runtime_error if it cannot be written.
   virtual void write(const render::Image& frame) = 0;

@@ -1,4 +1,4 @@
-// The matrix that a filter keeps, as a picture: dark where robot and landmarks are tied to each other.
+// A filter's matrix as a picture: dark cells are strong links between robot and landmarks.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class MatrixPicture {
 
   int size() const { return size_; }                          // [-] cells along an edge
   const std::vector<float>& cells() const { return cells_; }  // (size x size) strengths [-]
-  /// How dark a cell of this strength is. [-] in [0, 1]
+  /// The darkness of a cell of this strength. [-] in [0, 1]
   static float darkness(float strength);
 
   render::Raster raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const;

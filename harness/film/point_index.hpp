@@ -1,4 +1,4 @@
-// Landmarks by where they are: those in a rectangle are found without looking at the others.
+// Landmarks by position: finds those in a rectangle without visiting the others.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ class PointIndex {
   seif::LandmarkId id(std::size_t number) const { return points_[number].id; }
   std::optional<Eigen::Vector2d> position(seif::LandmarkId id) const;
 
-  /// The points in the area, and some about it; always in the same order. Replaces what `out` held.
+  /// The points in the area, and some near it; always in the same order. Replaces the content of `out`.
   void within(const Area& area, std::vector<seif::LandmarkId>& out) const;
 
  private:

@@ -6,13 +6,13 @@
 
 namespace harness {
 
-/// Equal intervals of time; of each the median of what came, or of as much as an interval keeps.
+/// Equal intervals of time. Each keeps the median of its values, or of as many as it has memory for.
 class Series {
  public:
   /// From `start` to `end` [s], in `bins` intervals.
   Series(double start, double end, int bins);
 
-  /// Values that are not finite are left out.
+  /// Ignores values that are not finite.
   void add(double t, double value);
 
   int bins() const { return static_cast<int>(values_.size()); }

@@ -14,13 +14,13 @@ namespace harness {
 
 class Sight {
  public:
-  /// `knows_world`: lines of sight are asked of the world, for the landmarks that something hides.
+  /// `knows_world`: the world is asked for lines of sight, to find hidden landmarks.
   Sight(const worlds::World& world, bool knows_world, const seif::Pose2& T_robot_sensor);
 
   /// `T_world_robot`: the true pose, or the best that is known.
   void scan(const ScanEvent& event, const seif::Pose2& T_world_robot, const Stage& stage);
 
-  /// From where the robot is now to what the latest scan found.
+  /// Rays from the robot's present position to what the latest scan saw.
   void append_rays(const seif::Pose2& T_world_robot, double height, float scale,
                    render::Things& things) const;
   void append_range(const seif::Pose2& T_world_robot, float scale, render::Things& things) const;

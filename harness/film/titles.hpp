@@ -1,4 +1,4 @@
-// What is written over the views of a frame: caption, names, legend, the matrix.
+// The text over the views of a frame: caption, names, legend, matrix.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ void append_view_title(const Frame& frame, float scale, const BeliefView& belief
 void append_matrix(const Frame& frame, float scale, const BeliefView& belief,
                    std::vector<render::OverlayItem>& overlay);
 
-/// What the marks mean.
+/// The legend of the marks.
 void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
                    const std::vector<BeliefView>& beliefs, bool has_truth,
                    std::vector<render::OverlayItem>& overlay);

@@ -1,4 +1,4 @@
-// The way that something has taken, in bounded memory: all of it coarsely, the last part finely.
+// A path so far, in bounded memory: all of it coarsely, the last part finely.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ inline constexpr double trail_spacing = 0.05;
 
 class Trail {
  public:
-  /// Points nearer to the one before than `spacing` [m] are left out.
+  /// Ignores points nearer than `spacing` [m] to the one before.
   explicit Trail(double spacing) : spacing_(spacing), coarse_spacing_(spacing) {}
 
   void add(const Eigen::Vector2d& point);

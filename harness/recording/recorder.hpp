@@ -25,7 +25,7 @@ void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot);
 /// All files of one run. Every function throws std::system_error if something cannot be written.
 class Recorder final : public RunListener {
  public:
-  /// Creates the files in an empty folder and writes what is known at the start.
+  /// Creates the files in an empty folder and writes what is known before the first event.
   Recorder(std::filesystem::path folder, const LogDescription& log, std::span<const std::string> estimators);
 
   void odometry(const OdometryEvent& event) override;
@@ -33,7 +33,7 @@ class Recorder final : public RunListener {
   void dead_reckoning(double t, const seif::Pose2& T_world_robot) override;
   void update(std::size_t estimator, const UpdateRecord& record) override;
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override;
-  /// Hands everything to the operating system: what was recorded survives the end of the program.
+  /// Hands everything to the operating system, so that it survives a crash of the program.
   void scored() override;
   /// Writes ESTIMATOR_map.csv.
   void map(std::size_t estimator, std::span<const MapRecord> landmarks) override;

@@ -11,18 +11,17 @@ namespace harness {
 /// `name` with everything but letters, digits, '.', '_' and '-' replaced: fit to be one part of a path.
 std::string file_name_of(std::string_view name);
 
-/// Creates parent/name, or, if that exists, parent/name-2, parent/name-3, ...: the first that nothing has.
+/// Creates parent/name, or, if that exists, parent/name-2, parent/name-3, ...: the first unused one.
 /// Two programs at the same time get two folders. Throws std::filesystem::filesystem_error.
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name);
 
 /// Creates this very folder, or takes it if it is there and empty; otherwise throws BadInput.
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 
-/// folder/name, or, if that exists, the same with -2, -3, ... before its extension: the first that nothing
-/// has.
+/// folder/name, or, if that exists, the same with -2, -3, ... before its extension: the first unused one.
 std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-/// A folder of its own where the system keeps such, that goes with all that is in it.
+/// A temporary folder, removed with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder();  // throws std::system_error
@@ -37,7 +36,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// 16 hex digits over the names and bytes of what a run saw and estimated: truth.csv, odometry.csv,
+/// A hash (16 hex digits) over the names and bytes of a run's measurements and estimates: truth.csv, odometry.csv,
 /// observations.csv, all *.tum and all *_map.csv, in the order of their names (FNV-1a, 64 bits). Equal for a
 /// run and its repetition or replay. Throws std::system_error if a file cannot be read.
 std::string trajectory_hash(const std::filesystem::path& folder);

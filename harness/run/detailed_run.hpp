@@ -1,4 +1,4 @@
-// A run with all that `seifbed score` tells of one. What that rebuilds by a replay is taken as the run goes.
+// A run with all scores of `seifbed score`. Those that need a replay there are computed during the run.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct DetailedRun {
   std::optional<RunDetails> details = {};  // nothing of a run that ended before its time
 };
 
-/// As execute(); the details stand in summary.json too.
+/// As execute(); summary.json contains the details, too.
 DetailedRun execute_in_detail(PreparedRun& run);
 
 /// The summary, with the details where there are any.

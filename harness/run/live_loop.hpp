@@ -1,4 +1,4 @@
-// The live loop: every event goes to every estimator in turn, and to those who follow the run.
+// The live loop: every event goes to every estimator in turn, and to the listeners of the run.
 #pragma once
 
 #include <atomic>

@@ -18,7 +18,7 @@
 
 namespace harness {
 
-/// Follows a replay. The NIS is taken of the scan after each scoring time, before any filter takes that in.
+/// Listens to a replay. Computes the NIS of the scan after each scoring time, before any filter gets that scan.
 class RebuiltConsistency final : public RunListener {
  public:
   /// Keeps references. At most `sample` landmarks of a map are scored, evenly spread.
@@ -56,13 +56,13 @@ class RebuiltConsistency final : public RunListener {
   std::vector<Gathered> gathered_;          // by estimator
 };
 
-/// A replay that does not come to what was recorded.
+/// Thrown if a replay does not give the recorded estimates.
 class NotReplayed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// How a run is to be replayed.
+/// How to replay a run.
 struct Rebuilding {
   std::filesystem::path run;                // the folder of the run
   std::filesystem::path to;                 // an empty folder
@@ -72,7 +72,7 @@ struct Rebuilding {
   bool is_other = false;                    // estimators that are not the run's: nothing recorded to come to
 };
 
-/// Replays a run; `look` sees the estimators as they are in the end. Throws BadInput, NotReplayed, and
+/// Replays a run; `look` sees the estimators in their final state. Throws BadInput, NotReplayed, and
 /// std::runtime_error if it was interrupted.
 std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& summary,
                                   const seif::Registry& registry,

@@ -1,4 +1,4 @@
-// Others that a recorded run is measured against, as rows of its score table.
+// References for a recorded run, as rows of its score table.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@ struct ReferenceScore {
   ReferenceEstimate estimate;
 };
 
-/// `batch`, the optimum; `robust_batch`, in which observations that are more than 3 sigma off weigh less; and
+/// `batch`, the optimum; `robust_batch`, in which observations more than 3 sigma off get less weight; and
 /// `mrpt_ekf`, a peer.
 inline constexpr std::array<std::string_view, 3> references = {"batch", "robust_batch", "mrpt_ekf"};
 bool is_optimum(std::string_view reference);
 
-/// Replays a run for a reference and scores it. An optimum is solved for once at the end; map, belief and
-/// trajectory are its own, and costs it has none. Throws BadInput if the run has an estimator of that name or
+/// Replays a run for a reference and scores it. An optimum is computed once, at the end, with a map, a belief
+/// and a trajectory of its own, and without costs. Throws BadInput if the run has an estimator of that name or
 /// the reference cannot be made, and std::runtime_error if no optimum is found.
 ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
                                const Summary& summary, const DetailChoices& choices,

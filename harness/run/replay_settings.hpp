@@ -11,7 +11,7 @@
 
 namespace harness {
 
-/// What a command line says about them.
+/// The choices of a command line.
 struct ReplayChoices {
   std::vector<std::string> estimators;  // only these: names from world.yaml, or types; empty: all of the file
   std::vector<std::string> overrides;   // path.to.key=value, of estimators, scoring, film and seed
@@ -24,7 +24,7 @@ struct ReplayChoices {
 worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                         const seif::Registry& registry);
 
-/// What of resolved settings concerns a replay alone, for a replay.yaml.
+/// The resolved settings that concern a replay, for a replay.yaml.
 std::string settings_of_replay(const std::string& resolved);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// What the robot is told to do, from where it is believed to be: a path, exploration, or recorded commands.
+// Commands for the robot, from its believed pose: along a path, by exploration, or recorded ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@
 
 namespace harness {
 
-/// Whether the robot could go straight from where it really is to p_robot_goal, `clearance` [m] away from
-/// anything solid. It is what the robot sees around itself, so it is asked in the robot's frame.
+/// Whether the robot could drive straight from its true position to p_robot_goal, `clearance` [m] away from
+/// anything solid. The goal is in the robot's frame, because the robot sees what is around it.
 using PathIsClear = std::function<bool(const Eigen::Vector2d& p_robot_goal, double clearance)>;
 
-/// A pure function of the poses that it is given, its random engine and its own state.
+/// Depends only on the given poses, its random engine and its own state.
 class Drive {
  public:
   Drive(const worlds::Drive& drive, const worlds::Robot& robot, std::mt19937_64 random,

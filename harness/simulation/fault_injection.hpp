@@ -1,6 +1,5 @@
-// What goes wrong on purpose between the truth and the stream: the faults of a world, each at its time. They
-// draw nothing at random and change nothing that is drawn, so a run is the same up to its first fault as
-// without.
+// The faults of a world, each at its time, between the truth and the stream. They use no random numbers and change
+// none, so until its first fault a run is the same as without faults.
 #pragma once
 
 #include <optional>
@@ -11,7 +10,7 @@
 
 namespace harness {
 
-/// What the encoders read beyond the true angles.
+/// The error of the encoders' angles.
 struct WheelJumps {
   double left = 0.0;   // [rad]
   double right = 0.0;  // [rad]
@@ -22,14 +21,14 @@ class FaultInjection {
  public:
   explicit FaultInjection(const std::vector<worlds::Fault>& faults);
 
-  /// Where the robot is put now; each kidnapping is told once. T_world_robot.
+  /// The pose that the robot is put to now, T_world_robot; each kidnapping is returned once.
   std::optional<worlds::Placement> kidnapping(double t);
 
   bool is_silent(worlds::FaultySensor sensor, double t) const;
 
   WheelJumps encoder_jumps(double t) const;
 
-  /// Spoils the first observation of a scan, by all faults that are due; they wait for one that saw
+  /// Applies all faults that are due to the first observation of a scan. A fault waits for a scan that saw
   /// something.
   void spoil(seif::Scan& scan);
 

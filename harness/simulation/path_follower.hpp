@@ -26,7 +26,7 @@ class PathFollower {
   /// Starts on a path. A closed one is entered where it is nearest to `start`, an open one at its beginning.
   void follow(std::span<const Eigen::Vector2d> points, bool closed, const Eigen::Vector2d& start);
 
-  /// What to do at this pose. At the end of an open path, and without a path: stand still.
+  /// The command at this pose. At the end of an open path, and without a path, the robot stands still.
   sim::Command command(const seif::Pose2& T_world_robot);
 
   bool is_finished() const { return is_finished_; }

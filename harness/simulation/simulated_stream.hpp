@@ -21,13 +21,13 @@ namespace harness {
 /// The pose that steers, T_world_robot, after everything that next() gave so far. Empty: the truth.
 using SteeringPose = std::function<seif::Pose2()>;
 
-/// Everything that draws has a random stream of its own: "encoders", "encoder_systematic", "landmark_sensor",
+/// Each source of random numbers has a stream of its own: "encoders", "encoder_systematic", "landmark_sensor",
 /// "start_estimate", "drive".
 class SimulatedStream final : public Stream {
  public:
   /// Throws std::invalid_argument if a rate is not from 1 Hz to the physics' step rate.
   SimulatedStream(const worlds::World& world, SteeringPose steering_pose);
-  /// With a simulator of this world that somebody else has made.
+  /// Uses a given simulator of this world.
   SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
                   std::unique_ptr<sim::Simulator> simulator);
   SimulatedStream(const SimulatedStream&) = delete;
@@ -35,11 +35,11 @@ class SimulatedStream final : public Stream {
 
   const LogDescription& description() const { return description_; }
 
-  /// The robot is steered at each odometry reading, with what is believed after it.
+  /// Steers the robot at each odometry reading, with the belief after it.
   bool next(Event& event) override;
 
  private:
-  /// Something that happens so often in a second, counted in physics steps: no time is ever accumulated.
+  /// A periodic event, counted in physics steps, so that no rounding of time accumulates.
   struct Clock {
     std::int64_t rate = 1;       // [Hz]
     std::int64_t step_rate = 1;  // [Hz]

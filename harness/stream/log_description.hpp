@@ -1,4 +1,4 @@
-// What stands beside the rows of a log: log.yaml, and which of the optional files there are.
+// The description of a log: log.yaml, and which of the optional files exist.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace harness {
 
-/// How the landmark sensor errs. The parts of the range are added in quadrature.
+/// The noise of the landmark sensor. The parts of the range are added in quadrature.
 struct SensorNoise {
   double range_sd = 0.0;        // [m]
   double range_sd_per_m = 0.0;  // [-]
@@ -43,8 +43,8 @@ struct LogDescription {
 /// log.yaml as text.
 std::string to_yaml(const LogDescription& description);
 
-/// Reads log.yaml. Throws BadInput with every problem in it, a line for each. What comes from other files of
-/// the log is left as it was.
+/// Reads log.yaml. Throws BadInput with every problem in it, a line for each. Fields that come from
+/// other files of the log stay unchanged.
 void read_yaml(const std::filesystem::path& file, LogDescription& description);
 
 /// What the log.yaml says of that; without a file, infinity. Throws BadInput.

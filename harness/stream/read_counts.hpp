@@ -1,4 +1,4 @@
-// What the reader of a log had to leave out or to bridge: real logs are not clean, and a score should say so.
+// Counts of what the reader of a log ignored or bridged. Real logs have errors, and the scores report them.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// How often each happened so far. [-]
+/// The counts so far. [-]
 struct ReadCounts {
   std::int64_t unknown_ids = 0;       // observations of an id that no table of the log knows: left out
   std::int64_t robots = 0;            // observations of another robot: left out
@@ -21,7 +21,7 @@ struct ReadCounts {
   std::int64_t truth_gaps = 0;        // longer than the reader's limit: there is no truth in them
 };
 
-/// Those that are not zero, under the names that the scores give them.
+/// The counts that are not zero, with their names in the scores.
 std::vector<std::pair<std::string_view, std::int64_t>> named(const ReadCounts& counts);
 
 }  // namespace harness

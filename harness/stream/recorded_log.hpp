@@ -1,4 +1,4 @@
-// A log that was recorded, whatever its format: a stream with what stands beside its rows.
+// A recorded log of any format: a stream and its description.
 #pragma once
 
 #include "harness/stream/log_description.hpp"

@@ -30,7 +30,7 @@ struct UpdateRecord {
   seif::Counts counts;                            // the filter's own, after the update
   std::int64_t blocks_touched = 0;                // [-] by this update alone
   UpdateTimes times;
-  /// What Estimator::associations() tells, of an estimator that does not need names. As long as the call.
+  /// Estimator::associations() of an estimator that associates by itself. Valid during the call.
   std::optional<std::span<const seif::LandmarkId>> associations;
 };
 
@@ -51,9 +51,8 @@ struct MapRecord {
   std::optional<Eigen::Matrix2d> covariance;       // (2 x 2) [m^2]
 };
 
-/// Told of everything in the order in which it happens: of odometry and of a scan before any estimator takes
-/// it in, then of each estimator's update by that scan; at the end, and at scoring times, of what was found
-/// then.
+/// Gets everything in the order in which it happens: odometry and scans before any estimator does, then each
+/// estimator's update with the scan; scores at the scoring times, and maps at the end.
 class RunListener {
  public:
   virtual ~RunListener() = default;

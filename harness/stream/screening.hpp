@@ -1,5 +1,5 @@
-// The door of the estimators: what comes in is looked at, and what no estimator can be given is left out,
-// counted and told. Recorded is what passed, so a replay gets the same.
+// Checks measurements before the estimators get them. Invalid ones are ignored, counted and reported. Only valid
+// ones are recorded, so a replay gets the same.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace harness {
 
-/// Why something is left out.
+/// Why a measurement is ignored.
 enum class Rejection {
   odometry_not_finite,
   odometry_out_of_range,  // farther than any robot drives in one increment, or an invalid covariance
@@ -29,14 +29,14 @@ class Screening {
  public:
   explicit Screening(const LogDescription& log);
 
-  /// Takes out of an event what is left out. False if nothing of it remains; a scan remains if it is empty.
+  /// Removes the invalid measurements of an event. False if nothing remains; an empty scan remains a scan.
   bool admit(Event& event);
 
   std::int64_t count(Rejection why) const { return counts_.at(static_cast<std::size_t>(why)); }
-  /// When something was first left out. [s]
+  /// The time of the first ignored measurement. [s]
   std::optional<double> first_t() const { return first_t_; }
 
-  /// Those that are not zero, under the names that the scores give them.
+  /// The counts that are not zero, with their names in the scores.
   std::vector<std::pair<std::string_view, std::int64_t>> named() const;
 
  private:

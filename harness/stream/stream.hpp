@@ -1,6 +1,5 @@
-// One stream of odometry and scans, whether it comes from the simulator or from a recorded log: what every
-// estimator gets, and what the recorder writes, in the order of time. At equal times odometry comes before a
-// scan.
+// The stream of odometry and scans, from the simulator or from a recorded log. Every estimator gets it, and the
+// recorder writes it, in the order of time. At equal times odometry comes before a scan.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,7 +48,7 @@ class Stream {
   virtual ~Stream() = default;
   /// The next event, written over `event`; false at the end. Throws on a log that cannot be read further.
   virtual bool next(Event& event) = 0;
-  /// What had to be left out of a log so far, for streams that leave something out.
+  /// What was ignored of a log so far, for streams that ignore something.
   virtual ReadCounts counts() const { return {}; }
 };
 

@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Between two rows linearly; the heading turns the short way.
+/// Interpolates linearly between two rows; the heading turns the short way.
 TruePose interpolate(const TruePose& from, const TruePose& to, double t);
 
 /// The truth at any moment, for moments that come in order: the row at that time, or between two rows.
