@@ -17,7 +17,7 @@ namespace {
 /// What all estimators of a run share.
 struct RunFacts {
   std::optional<std::vector<TrueLandmark>> landmarks;  // sorted by id
-  std::set<seif::LandmarkId> seen;                     // landmarks of the world in any scan
+  std::set<seif::LandmarkId> seen;                     // the world's landmarks that appear in any scan
   std::vector<std::size_t> closures;
 };
 

@@ -1,5 +1,5 @@
-// What `seifbed score` says about a run beyond its summary, from the files of its folder. Definitions:
-// docs/scores.md.
+// The details that `seifbed score` adds to the summary of a run. They come from the files of the run's
+// folder. Definitions: docs/scores.md.
 #pragma once
 
 #include <array>
@@ -20,46 +20,49 @@
 namespace harness {
 
 struct DetailChoices {
-  std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] of the relative pose error
-  double away = 20.0;                                // [s] after which seeing a landmark again closes a loop
-  /// Where ESTIMATOR_consistency.csv is; empty: in the folder of the run.
+  std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] path lengths of the relative pose error
+  double away = 20.0;                                // [s] seeing a landmark again after this time closes a
+                                                     // loop
+  /// The folder of `ESTIMATOR_consistency.csv`; empty: the run's own folder.
   std::filesystem::path consistency;
 };
 
-/// A score that is not available is empty.
+/// A value that is not available is empty.
 struct EstimatorDetails {
   std::string name;
-  std::vector<RelativePoseError> rpe;              // at each of the distances
+  std::vector<RelativePoseError> rpe;              // one for each of `distances`
   std::optional<MapCounts> map;                    // if the world's landmarks are known
-  std::optional<double> landmark_rmse_from_robot;  // [m] at the end
-  std::size_t poses_scored = 0;                    // [-] moments with a NEES of the pose
-  std::optional<double> pose_inside;               // [-] the share of them inside the chi-square band
-  std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
-  RebuiltScore rebuilt;                            // by a replay, if there was one
-  std::optional<DistanceFromReference> from_reference;  // if a reference was asked for
-  std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] of the position
+  std::optional<double> landmark_rmse_from_robot;  // [m] when the run ends
+  std::size_t poses_scored = 0;                    // [-] times at which the pose has a NEES
+  std::optional<double> pose_inside;               // [-] share of these times with the NEES inside the
+                                                   // chi-square band
+  std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks with the NEES
+                                                   // inside their band
+  RebuiltScore rebuilt;                            // from a replay, if there was one
+  std::optional<DistanceFromReference> from_reference;  // if the user asked for a reference
+  std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] error of the position
 };
 
 struct RunDetails {
   DetailChoices choices;
-  std::string reference;      // its name; empty: none was asked for
+  std::string reference;      // name of the reference; empty: the user asked for none
   std::size_t closures = 0;   // [-]
-  EstimatorDetails odometry;  // the trajectory alone
+  EstimatorDetails odometry;  // its trajectory only
   std::vector<EstimatorDetails> estimators;
 };
 
-/// Throws BadInput if a file is missing or broken.
+/// Scores the named estimators of a run. Throws BadInput if a file is missing or broken.
 RunDetails score_details(const std::filesystem::path& folder, std::span<const std::string> estimators,
                          const DetailChoices& choices);
 
-/// The summary, with the details in each estimator.
+/// The summary as JSON, with the details added to each estimator.
 std::string to_json(const Summary& summary, const RunDetails& details);
 
-/// Of the map, of what was rebuilt, of the path, and, if there is such, of the distance from a reference and
-/// of the error after a loop has closed.
+/// The tables, in this order: the map, the rebuilt scores, the path; then the error after a loop closure and
+/// the distance from the reference, if there are any.
 std::vector<std::vector<TextRow>> details_tables(const RunDetails& details);
 
-/// The same as text.
+/// The same tables as text.
 std::string details_board(const RunDetails& details);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Loop closures in what was seen, and how errors respond to them. Definitions: docs/scores.md.
+// Finds the loop closures of a run and tells how the error changes after them. Definitions: docs/scores.md.
 #pragma once
 
 #include <array>
@@ -17,15 +17,16 @@ struct SeenScan {
   std::vector<seif::LandmarkId> landmarks;
 };
 
-/// The loop closures, as indices of scans: a landmark is seen that was seen before, and then not for `away` [s]
-/// or longer. Only the first such scan of each return counts: no closure follows within `away` of another.
+/// The indices of the scans that close a loop: the scan sees a landmark that was seen before, and then not
+/// for `away` [s] or longer. At least `away` [s] lie between two closures.
 std::vector<std::size_t> loop_closures(std::span<const SeenScan> scans, double away);
 
-/// Updates since a closure at which the response is taken; -1 is the last update before it. [-]
+/// [-] number of updates after the closure at which the error is taken; -1 is the last update before it
 inline constexpr std::array<int, 8> response_updates = {-1, 0, 1, 2, 5, 10, 20, 50};
 
-/// Root mean square over the closures of the error at each of response_updates; nothing where no closure has
-/// an error there. `errors` has one value for each scan, the last ones may be missing. [as the errors]
+/// The root mean square error, over all closures, at each of response_updates. An entry is empty if no
+/// closure has an error there. `errors` has one value for each scan; the last ones may be missing. Unit: that
+/// of `errors`.
 std::array<std::optional<double>, response_updates.size()> closure_response(
     std::span<const std::size_t> closures, std::span<const double> errors);
 

@@ -1,4 +1,4 @@
-// Counts of missed, spurious and duplicate landmarks of a map. Definitions: docs/scores.md.
+// Counts the landmarks that a map misses, and those that it has too many. Definitions: docs/scores.md.
 #pragma once
 
 #include <set>
@@ -10,15 +10,16 @@
 namespace harness {
 
 struct MapCounts {
-  int missed = 0;     // [-] landmarks that were seen, and are not in the map
-  int spurious = 0;   // [-] in the map, and not in the world
-  int duplicate = 0;  // [-] spurious ones near a landmark of the world that the map has already
+  int missed = 0;     // [-] landmarks that were seen and are not in the map
+  int spurious = 0;   // [-] landmarks in the map that the world does not have
+  int duplicate = 0;  // [-] spurious landmarks that lie near a landmark that the map already has
 };
 
-/// A spurious landmark this near to another is its duplicate, after the map is aligned to the world. [m]
+/// A spurious landmark within this distance of a correctly mapped one is a duplicate, after the alignment of
+/// map and world. [m]
 inline constexpr double duplicate_radius = 0.5;
 
-/// `truth` is sorted by id. `seen` are the ids of the landmarks of the world that any scan holds.
+/// `truth` is sorted by id. `seen` holds the ids of the world's landmarks that appear in any scan.
 MapCounts count_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth,
                           const std::set<seif::LandmarkId>& seen);
 

@@ -73,7 +73,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_apart(std::span<const dou
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double wanted = values[i] + apart;
     const auto after = std::ranges::lower_bound(values, wanted);
-    // The first of the values below that equals the last one.
+    // If several of the smaller values are equal to the largest of them, take the first.
     const auto before = std::lower_bound(values.begin(), after, after == values.begin() ? wanted : after[-1]);
     const auto miss = [&](auto value) { return std::abs(*value - wanted); };
     const bool is_before = after == values.end() || (before != after && miss(before) <= miss(after));

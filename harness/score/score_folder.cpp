@@ -91,7 +91,7 @@ void score_times(const std::filesystem::path& folder, EstimatorScore& score) {
                          [](std::vector<double>& us) { return percentiles(us); });
 }
 
-/// Gathers a mean, and remembers the last value.
+/// Computes a mean and keeps the last value.
 struct Mean {
   double sum = 0.0;
   int count = 0;
@@ -116,7 +116,7 @@ void score_consistency(const std::filesystem::path& folder, EstimatorScore& scor
   while (rows.next()) {
     pose.add(rows, 1);
     landmark.add(rows, 2);
-    // Without truth nothing is known about the belief.
+    // An empty NEES is the belief's fault only if the truth is known.
     if (rows.is_empty(1) && score.trajectory.rmse) {
       ++score.improper_beliefs;
       if (!score.improper_t) score.improper_t = rows.number(0);
@@ -162,7 +162,7 @@ std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::
     const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
     map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
     if (rows.is_empty(3)) continue;
-    // One by one: Eigen does not let a list of coefficients be broken off, as a cell that is no number would.
+    // One by one: Eigen's comma initializer must be filled completely, but a bad cell throws in between.
     Eigen::Matrix2d covariance;
     covariance(0, 0) = rows.number(3);
     covariance(0, 1) = covariance(1, 0) = rows.number(4);

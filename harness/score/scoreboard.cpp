@@ -66,7 +66,7 @@ std::string log_line(const Summary& summary) {
   return text + '\n';
 }
 
-/// What was not given to the estimators, a line for each kind; empty if nothing.
+/// What was not given to the estimators, one line for each kind; empty if nothing.
 std::string left_out_line(const Summary& summary) {
   if (summary.left_out.empty()) return "";
   std::string text =
@@ -75,7 +75,8 @@ std::string left_out_line(const Summary& summary) {
   return text;
 }
 
-/// Estimators that have diverged, and those whose belief was none; empty if all is well.
+/// The estimators that diverged, and those whose covariance was not positive definite; empty if there are
+/// none.
 std::string divergence_lines(const Summary& summary) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {
@@ -92,7 +93,7 @@ std::string divergence_lines(const Summary& summary) {
   return text.empty() ? text : '\n' + text;
 }
 
-/// What the estimators have counted of this sort, if it is not zero; empty if none has.
+/// One line with a counter of all estimators, without those where it is zero; empty if it is zero for all.
 std::string count_line(const Summary& summary, std::string_view what,
                        std::optional<std::int64_t> EstimatorScore::*count) {
   std::string text;
@@ -109,7 +110,7 @@ std::string gate_line(const Summary& summary) {
          count_line(summary, "Observations that counted less", &EstimatorScore::weakened);
 }
 
-/// What the estimators that give names of their own made of the observations; empty without such.
+/// The associations of the estimators that name landmarks by themselves; empty without such an estimator.
 std::string association_lines(const Summary& summary) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {

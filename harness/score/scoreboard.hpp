@@ -1,4 +1,4 @@
-// The scores of a run as a table for people.
+// The scores of a run as tables to read in a terminal.
 #pragma once
 
 #include <string>
@@ -9,11 +9,12 @@
 
 namespace harness {
 
-/// Its parts: a row for each estimator and for odometry, and one for each estimator.
+/// The two tables of the scoreboard. The first has a row for each estimator and one for odometry, the second
+/// a row for each estimator.
 std::vector<TextRow> accuracy_table(const Summary& summary);
 std::vector<TextRow> cost_table(const Summary& summary);
 
-/// At most 110 columns wide, for names of up to 16 letters.
+/// The scoreboard as text. It has at most 110 columns if names have at most 16 letters.
 std::string scoreboard(const Summary& summary);
 
 }  // namespace harness

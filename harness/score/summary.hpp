@@ -1,4 +1,4 @@
-// summary.json: what came out of a run.
+// summary.json: the results of a run.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,21 @@ struct Summary {
   std::int64_t updates = 0;  // [-] scans
   bool interrupted = false;
   std::string trajectory_hash;
-  double realtime_factor = 0.0;                                  // [-] duration over the time that it took
+  double realtime_factor = 0.0;                                  // [-] simulated time over real time
   double rpe_interval = 0.0;                                     // [s]
-  std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out, if any
-  std::vector<std::pair<std::string, std::int64_t>> left_out;    // what no estimator was given, if any
-  std::optional<double> left_out_t;                              // [s] when something first was
+  std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out, if
+                                                                 // anything
+  std::vector<std::pair<std::string, std::int64_t>> left_out;    // what no estimator was given, if anything
+  std::optional<double> left_out_t;                              // [s] time of the first event in `left_out`
   RunScore score;
-  std::vector<std::string> failures;  // one for each of score.estimators; empty: none
+  std::vector<std::string> failures;  // one entry for each of `score.estimators`; empty: it did not fail
 };
 
-/// What stands in a summary.json, but of the scores the names of the estimators alone: the others are in the
-/// folder. Throws BadInput.
+/// Reads a summary.json. Of the scores it reads only the names of the estimators; the scores themselves can
+/// be computed from the folder. Throws BadInput.
 Summary read_summary(const std::filesystem::path& file);
 
-/// Values that are not available, or not finite, are null.
+/// A value that is not available or not finite is written as null.
 std::string to_json(const Summary& summary);
 
 }  // namespace harness

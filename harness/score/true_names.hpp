@@ -1,5 +1,5 @@
-// Which landmark of the world each landmark of a map is, where a filter gives names of its own: that of which
-// most of its observations truly were. Definitions: docs/scores.md.
+// For filters that give landmarks names of their own: finds the world's landmark behind each name. That is
+// the landmark that most of the name's observations truly saw. Definitions: docs/scores.md.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,42 @@ namespace harness {
 
 class TrueNames {
  public:
-  /// An observation that the filter took for `name` and that was of `true_id`; no_landmark: a false
-  /// detection.
+  /// Counts one observation that the filter took for `name` and that truly saw `true_id` (no_landmark: a
+  /// false detection).
   void add(seif::LandmarkId name, seif::LandmarkId true_id) { ++counts_[name][true_id]; }
-  /// Those of one scan. Observations that were left out count for nothing.
+  /// Counts the observations of one scan. An observation that the filter left out does not count.
   void add(std::span<const seif::LandmarkId> names, std::span<const seif::LandmarkId> true_ids);
 
-  /// The smaller id where as many observations were of two; no_landmark of a name that was mostly false or
-  /// never given.
+  /// The world's landmark behind a name. If two landmarks have the same count, it is the one with the smaller
+  /// id. no_landmark if most observations of the name were false detections, or if the name was never given.
   seif::LandmarkId of(seif::LandmarkId name) const;
-  /// Observations of a name that were of the landmark that it is. [-]
+  /// Observations of `name` that saw the landmark behind it. [-]
   std::int64_t right(seif::LandmarkId name) const;
-  /// The same of all names. [-]
+  /// The sum of these over all names. [-]
   std::int64_t right() const;
 
  private:
   std::map<seif::LandmarkId, std::map<seif::LandmarkId, std::int64_t>> counts_;
 };
 
-/// What a filter that names landmarks by itself made of the observations of a run.
+/// How a filter that names landmarks by itself treated the observations of a run.
 struct Associations {
-  std::int64_t named = 0;          // [-] observations that it took in
-  std::int64_t left_out = 0;       // [-] the others
-  std::optional<TrueNames> names;  // where the true ids are known
+  std::int64_t named = 0;          // [-] observations that it gave a name
+  std::int64_t left_out = 0;       // [-] observations without a name
+  std::optional<TrueNames> names;  // if the true ids are known
 };
 
-/// Reads ESTIMATOR_associations.csv; nothing for a filter whose associations are known. Throws BadInput, as
-/// the next.
+/// Reads `ESTIMATOR_associations.csv`. Empty if the filter is told the ids. Throws BadInput, as does
+/// read_scored_map().
 std::optional<Associations> read_associations(const std::filesystem::path& folder,
                                               const std::string& estimator);
 
-/// A map whose landmarks bear the ids of the world, as far as they are known; no_landmark: of nothing.
+/// A map with the ids of the world where they are known. An id is no_landmark if the world has no such
+/// landmark.
 struct ScoredMap {
   std::vector<MapRecord> landmarks;
-  int duplicates = 0;  // [-] left out: of a landmark that another one is, which has more right observations
+  int duplicates = 0;  // [-] landmarks left out, because another one with more right observations is the same
+                       // landmark
 };
 
 ScoredMap read_scored_map(const std::filesystem::path& folder, const std::string& estimator);
