@@ -11,7 +11,7 @@
 
 namespace harness {
 
-/// From what was asked for (empty: the ekf, or the first) and what there is. Throws BadInput.
+/// Chooses the baseline by name among the estimators; empty: the ekf, or the first. Throws BadInput.
 std::string choose_baseline(const std::string& asked, std::span<const worlds::EstimatorChoice> estimators);
 
 /// Loads a world or the settings of a log, which `overrides` belong to. If the baseline is a registered type

@@ -19,7 +19,7 @@ struct ComparedRun {
   std::optional<RunDetails> details = {};
 };
 
-/// An estimator over the runs that it finished. What no run has is nothing.
+/// An estimator over the runs that it finished. A score that no run has is empty.
 struct EstimatorComparison {
   std::string name;
   int runs = 0;                                  // [-] finished
@@ -65,7 +65,7 @@ int exit_code(const Comparison& comparison);
 /// The whole comparison with every run's summary.
 std::string to_json(const Comparison& comparison);
 
-/// As tables for people; what failed stands below.
+/// As tables for people, with the failures below.
 std::string comparison_board(const Comparison& comparison);
 
 }  // namespace harness

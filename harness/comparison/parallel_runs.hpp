@@ -1,4 +1,4 @@
-// Many runs on several threads. They share nothing, so that each comes out as it would alone.
+// Many runs on several threads. They share nothing, so each gives the same result as alone.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace harness {
 
-/// A run that is still to be done. What it throws becomes the error of its result.
+/// A run to be done. An exception becomes the error of its result.
 struct PlannedRun {
   std::string name;
   std::function<DetailedRun()> run;

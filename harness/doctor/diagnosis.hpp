@@ -1,4 +1,4 @@
-// What the doctor finds: whether everything that this program can do, it can do here.
+// The findings of the doctor: whether everything works on this machine.
 #pragma once
 
 #include <functional>
@@ -19,12 +19,12 @@ struct Diagnosis {
   std::vector<Finding> self_test;
 };
 
-/// What `look` returns is what a good finding says, and what it throws (std::exception) is what is wrong.
+/// `look` returns the text of a good finding, or throws a std::exception with what is wrong.
 Finding finding(const std::string& name, const std::function<std::string()>& look);
 
 bool is_well(const Diagnosis& diagnosis);
 
-/// One line for each finding, and a last one that says how it stands altogether.
+/// One line for each finding, and a last line with the overall result.
 std::string diagnosis_board(const Diagnosis& diagnosis);
 std::string to_json(const Diagnosis& diagnosis);
 

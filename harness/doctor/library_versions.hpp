@@ -1,4 +1,4 @@
-// What this build of the program was made with.
+// The libraries that this build was made with.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What the machine has of what this program uses.
+// What this machine offers to the program.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace harness {
 
-/// Cores, memory, room on the disk, the graphics library, ffmpeg and its codecs, gnuplot. Bad is what a
-/// command of this program would fail for.
+/// Cores, memory, room on the disk, the graphics library, ffmpeg and its codecs, gnuplot. A finding is bad if a
+/// command of this program would fail because of it.
 std::vector<Finding> look_at_machine();
 
 }  // namespace harness

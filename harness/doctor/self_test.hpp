@@ -1,4 +1,4 @@
-// Whether this build does on this machine what it was made for. A few seconds.
+// A self-test of this build on this machine, in a few seconds.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Physics, sensing, estimation, recording and rendering, each held against what must come of it.
+/// Physics, sensing, estimation, recording and rendering, each compared with the expected result.
 std::vector<Finding> test_self(const seif::Registry& registry);
 
 }  // namespace harness

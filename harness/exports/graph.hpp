@@ -1,4 +1,4 @@
-// What a run measured, as the graph that other SLAM programs optimise.
+// The measurements of a run as a graph for other SLAM programs.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,8 @@ struct RecordedGraph {
   std::vector<seif::LandmarkId> ids;       // of the landmarks
 };
 
-/// Poses are those after the estimator's updates, and landmarks those of its map in the end. What it does not
-/// have, because it was taken out of the run, comes from odometry and from where a landmark was first seen.
-/// Throws BadInput.
+/// The first guess has the estimator's poses after its updates, and the landmarks of its final map. If the estimator
+/// was taken out of the run, the rest comes from odometry and first sightings. Throws BadInput.
 RecordedGraph read_graph(const std::filesystem::path& run, const std::string& estimator);
 
 /// As g2o reads it: VERTEX_SE2 from 0, VERTEX_XY behind them in the order in which the landmarks were first
@@ -28,7 +27,7 @@ RecordedGraph read_graph(const std::filesystem::path& run, const std::string& es
 std::string to_g2o(const RecordedGraph& graph);
 
 /// As GTSAM's readG2o reads it, which passes over EDGE_SE2_XY: landmarks by BR, bearing and range. These are
-/// from a VERTEX_SE2, so that the poses and motions are those of the sensor.
+/// relative to a VERTEX_SE2, so poses and motions are those of the sensor.
 std::string to_gtsam(const RecordedGraph& graph);
 
 }  // namespace harness

@@ -11,9 +11,8 @@ struct Points {
   std::vector<double> y;  // as many
 };
 
-/// Of each of `bins` equal stretches of x, which never falls, the smallest and the largest value of y, in the
-/// order in which they came: nothing that sticks out is lost. As it is if it has no more than twice as many
-/// points. All values finite.
+/// Keeps the smallest and the largest y of each of `bins` equal intervals of x, in their order, so that no peak is
+/// lost. A curve of at most 2 `bins` points stays unchanged. x never falls, and all values are finite.
 Points smallest_and_largest(Points points, std::size_t bins);
 
 /// At most `most` (two or more) of the points, evenly spread, the first and the last among them.

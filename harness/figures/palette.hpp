@@ -22,7 +22,7 @@ inline constexpr Rgb vermilion = 0xD55E00;
 inline constexpr Rgb purple = 0xCC79A7;
 }  // namespace palette
 
-/// The colour of estimators of this type; those that are not ours share what is left.
+/// The colour of estimators of this type; types of users share the remaining colours.
 Rgb colour_of_estimator(std::string_view type);
 
 }  // namespace harness

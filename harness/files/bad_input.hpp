@@ -1,4 +1,4 @@
-// The error for everything that a user got wrong.
+// The error for wrong input.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Reads text tables row by row, strictly: every complaint says file, line, column and reason.
+// Reads text tables row by row, strictly: every error names file, line, column and reason.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace harness {
 
-/// The columns that a table must have, in this order, a group that may follow them all or not at all, and one
-/// that may follow that, where older versions wrote none.
+/// The columns of a table in their order: required ones, a group that is complete or absent, and after it a group
+/// that older versions did not write.
 struct Columns {
   std::vector<std::string> required;
   std::vector<std::string> optional;

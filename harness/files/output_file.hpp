@@ -1,4 +1,4 @@
-// Files that are written without an error unnoticed, and read or written whole.
+// Output files on which every error is noticed, and files read or written as a whole.
 #pragma once
 
 #include <cstdint>
@@ -38,11 +38,10 @@ class OutputFile {
   std::int64_t size_ = 0;  // [byte] of what was flushed
 };
 
-/// Writes the whole text, so that nobody ever finds part of the file under its name, even after the power
-/// failed.
+/// Writes the whole text. No reader finds a part of the file under its name, even after a power failure.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
-/// Reads a file that is there. Throws std::system_error.
+/// Reads an existing file. Throws std::system_error.
 std::string read_whole_file(const std::filesystem::path& path);
 
 }  // namespace harness

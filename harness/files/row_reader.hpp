@@ -1,5 +1,4 @@
-// Reads a text file line by line and each line cell by cell: every complaint says file, line, column and
-// reason.
+// Reads a text file line by line and each line cell by cell. Every error names file, line, column and reason.
 #pragma once
 
 #include <cstdint>

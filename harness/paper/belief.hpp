@@ -1,4 +1,4 @@
-// The whole belief of an estimator when a run has ended, beside the truth, and the network that it is.
+// The whole belief of an estimator at the end of a run, beside the truth, and its network of links.
 #pragma once
 
 #include <Eigen/Core>

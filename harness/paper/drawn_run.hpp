@@ -1,4 +1,4 @@
-// The run whose beliefs the figures show: the first one.
+// The run that the figures show: the first one.
 #pragma once
 
 #include <string>

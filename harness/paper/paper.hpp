@@ -23,7 +23,7 @@ struct PaperRow {
   std::string_view update;     // how its time grows
 };
 
-/// Those of the report's table, and then the others.
+/// The rows of the report's table, and then our other filters.
 inline constexpr std::array<PaperRow, 9> paper_rows = {{
     {"ekf", "{}", "EKF", "O(N^2)"},
     {"seif_exact", "{theta_x: 6}", "SEIF, exact mean", "Cholesky"},
@@ -49,8 +49,7 @@ struct PaperPlan {
   bool quiet = false;
 };
 
-/// What of the set-up differs from worlds/report2002.yaml: path.to.key=value. What the caller sets comes
-/// last.
+/// The overrides of worlds/report2002.yaml, path.to.key=value; the caller's come last.
 std::vector<std::string> paper_overrides(const PaperPlan& plan);
 
 /// Loads the world of the first seed.

@@ -1,4 +1,4 @@
-// What came out beside what the report has: as a table for people and as JSON.
+// Our results beside the report's, as a table for people and as JSON.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::string paper_json(const PaperPlan& plan, const worlds::World& world, const 
 /// A row for each run and estimator.
 std::string paper_runs_csv(const Comparison& comparison);
 
-/// What clocks have measured.
+/// Measured times.
 std::string paper_times_json(const PaperPlan& plan, const Comparison& comparison);
 
 }  // namespace harness

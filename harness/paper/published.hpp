@@ -18,7 +18,7 @@ struct PublishedRow {
   std::string_view update;           // how its time grows
 };
 
-/// Of the last row the number of runs is printed as "1,00".
+/// The report prints the number of runs of the last row as "1,00".
 inline constexpr std::array<PublishedRow, 3> published_rows = {{
     {"ekf", 1'000, 5.54, 0.67, 1'275, {}, "O(N^2)"},
     {"seif_exact", 1'000, 4.75, 0.67, 549, 1.60, "O(N^3)"},

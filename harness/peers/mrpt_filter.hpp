@@ -36,13 +36,13 @@ class MrptFilter {
  public:
   virtual ~MrptFilter() = default;
 
-  /// The motion since the last update, and what was seen after it: at least one landmark.
+  /// Takes in the motion since the last update and the observations after it: at least one.
   virtual void update(const Gaussian& motion, std::span<const Sighting> seen, const SensorNoise& noise) = 0;
 
   virtual std::span<const double> mean() const = 0;
   virtual double covariance(int row, int column) const = 0;
 
-  /// The number of the landmark at a place, from 0.
+  /// The number of the landmark at an index, from 0.
   virtual int landmark_at(int place) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Landmarks and observations row by row: what the readers of other formats share.
+// Landmarks and observations row by row, shared by the readers of other formats.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace harness {
 
 inline constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
 
-/// By their ids, which the file calls `name`. Throws BadInput if one stands there twice.
+/// Landmarks by id; the file calls the id `name`. Throws BadInput for an id that stands there twice.
 void sort_by_id(std::vector<TrueLandmark>& landmarks, const std::filesystem::path& file,
                 std::string_view name);
 
-/// Without observations yet.
+/// A scan without observations.
 void begin_scan(ScanEvent& event, double t, const std::optional<TruePose>& truth);
 
-/// Unless the scan has the landmark already: then it is counted and left out.
+/// Adds an observation, unless the scan has the landmark already: then counts and ignores it.
 void add_once(const seif::Observation& observation, ScanEvent& event, ReadCounts& counts);
 
 }  // namespace harness

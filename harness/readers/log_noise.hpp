@@ -1,4 +1,4 @@
-// How the odometry and the landmark sensor of a robot err, where a log does not say it row by row.
+// The noise of a robot's odometry and landmark sensor, for logs that do not state it row by row.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace harness {
 
-/// Errors that grow like a random walk: their variances add up over the way and over the turns, whatever the
-/// increments are.
+/// Errors that grow like a random walk: their variances add up over distance and turns, however the motion is cut
+/// into increments.
 struct OdometryNoise {
   double distance_sd_per_sqrt_m = 0.0;  // [m/sqrt(m)] along the way
   double sideways_sd_per_sqrt_m = 0.0;  // [m/sqrt(m)] across it
@@ -30,7 +30,7 @@ struct LogNoise {
 /// The covariance of an increment, in its own frame. (3 x 3) [m, rad]
 Eigen::Matrix3d covariance(const OdometryNoise& noise, const seif::Pose2& T_previous_current);
 
-/// What the command line says about it: a file, and `noise.key=value`, which wins.
+/// The choices of the command line: a file, and `noise.key=value`, which overrides the file.
 struct NoiseChoices {
   std::filesystem::path file = {};  // empty: none
   std::vector<std::string> overrides = {};
@@ -38,8 +38,8 @@ struct NoiseChoices {
   bool empty() const { return file.empty() && overrides.empty(); }
 };
 
-/// `fallback` with what was chosen. A key of the odometry sets all of its noise, and one of the sensor all of
-/// that, with the fallback's values for the others. Throws BadInput.
+/// `fallback` with the choices applied. A key of the odometry sets all of the odometry's noise, and a key of the
+/// sensor all of the sensor's, with the fallback's values for the other keys. Throws BadInput.
 LogNoise read_noise(const NoiseChoices& choices, const LogNoise& fallback);
 
 /// As read_noise reads it from a file.

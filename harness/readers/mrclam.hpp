@@ -12,7 +12,7 @@
 
 namespace harness {
 
-/// Barcodes, landmarks and truth are those of the folder. The start is the truth where it is known, else the
+/// Barcodes, landmarks and truth come from the folder. The start is the truth if it is known, else the
 /// origin. All functions throw BadInput.
 class MrclamLog final : public VelocityLog {
  public:
@@ -20,8 +20,8 @@ class MrclamLog final : public VelocityLog {
 
   static bool is_in(const std::filesystem::path& folder);
 
-  /// Chosen on dataset 6, all five robots: docs/datasets.md. More than each measurement errs by itself, since
-  /// the errors of one place are much the same.
+  /// Chosen on dataset 6, all five robots: docs/datasets.md. Larger than the noise of one measurement,
+  /// because the errors at one place are nearly the same.
   static LogNoise default_noise();
 
  protected:

@@ -1,4 +1,4 @@
-// Tables of numbers that begin with a time, from robots that now and then write nonsense.
+// Tables of numbers with a time, from robots that sometimes write invalid rows.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace harness {
 
-/// The next line that is no comment and not empty; it may have so many cells at most.
+/// The next line that is neither a comment nor empty; it may have at most this many cells.
 bool next_row(RowReader& rows, std::size_t cells);
 
-/// The next row of numbers that are all finite and whose time, in column `Time`, does not go back; others are
-/// left out and counted. Throws BadInput for what is no number.
+/// The next row whose numbers are all finite and whose time, in column `Time`, does not go back. Other rows are
+/// ignored and counted. Throws BadInput for text that is not a number.
 template <std::size_t Time = 0, std::size_t Columns>
 std::optional<std::array<double, Columns>> next_numbers(RowReader& rows,
                                                         const std::array<std::string_view, Columns>& names,

@@ -1,4 +1,4 @@
-// Logs of all formats: which one it is, and a stream of it.
+// Recognises the format of a log, and opens it as a stream.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ enum class LogFormat {
   victoria_park  // car odometry and trees
 };
 
-/// A log, as the command line says it.
+/// A log as chosen on the command line.
 struct LogChoice {
   std::filesystem::path path = {};
   std::string format = {};                          // empty: told by the content
@@ -29,20 +29,19 @@ struct LogChoice {
   NoiseChoices noise = {};
 };
 
-/// The names that a format may be given by.
+/// The names of the formats.
 std::vector<std::string> log_format_names();
 
-/// Throws BadInput if the content is of no format that is known.
+/// Throws BadInput if the content has no known format.
 LogFormat format_of(const LogChoice& choice);
 
 /// Throws BadInput: `file:line:column: reason`, or what does not fit the format.
 std::unique_ptr<RecordedLog> open_log(const LogChoice& choice);
 
-/// The noise that is taken for a log of this format unless it is told otherwise; nothing for what the log
-/// says itself.
+/// The default noise for a log of this format; nothing where the log states it.
 LogNoise default_noise(LogFormat format);
 
-/// The settings with which a log that comes without is replayed, as YAML: estimators with their options.
+/// The settings for replaying a log without settings of its own, as YAML: estimators with their options.
 std::string default_settings(LogFormat format);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Graphs of poses and landmarks as text, in the order in which they came about: those of iSAM and of g2o.
+// Graphs of poses and landmarks as text, in the order of time: the formats of iSAM and g2o.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct GraphEdge {
   Eigen::Matrix2d point_covariance = Eigen::Matrix2d::Zero();
 };
 
-/// The motions of a file, or the landmarks that were seen, one by one. Throws BadInput for what is malformed,
-/// and for a motion that does not begin where the one before it ended.
+/// The motions of a file, or the landmarks that were seen, one by one. Throws BadInput for malformed rows,
+/// and for a motion that does not begin where the previous one ended.
 class GraphEdges {
  public:
   enum class Kind { motions, landmarks };
@@ -52,7 +52,7 @@ class GraphEdges {
 /// mixture, but each in its order, so that two passes through the file at the same time need no memory.
 class PoseLandmarkGraph final : public RecordedLog {
  public:
-  /// `truth`, where there is one, is the same graph without noise. All functions throw BadInput.
+  /// `truth`, if given, is the same graph without noise. All functions throw BadInput.
   PoseLandmarkGraph(const std::filesystem::path& file, const std::optional<std::filesystem::path>& truth);
 
   const LogDescription& description() const override { return description_; }

@@ -1,4 +1,4 @@
-// Logs of velocities at some times and of observations at others: what their readers share.
+// Logs of velocities and observations at different times; shared by their readers.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// How the robot moves from a time on, until the next row says otherwise.
+/// The robot's motion from a time on, until the next row.
 struct VelocityRow {
   double t = 0.0;      // [s]
   double v = 0.0;      // [m/s] ahead
@@ -38,7 +38,7 @@ class VelocityLog : public RecordedLog {
   /// a constructor, when all else of the description stands.
   void begin();
 
-  /// A time less that of the first velocity, without what the subtraction of two large numbers leaves in the
+  /// A time relative to the first velocity, rounded so that subtracting two large numbers leaves no noise in the
   /// last digits. [s]
   double since_start(double t) const;
 

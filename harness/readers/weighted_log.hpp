@@ -10,7 +10,7 @@ namespace harness {
 
 class WeightedLog final : public RecordedLog {
  public:
-  /// Where `noise` has nothing, covariances stay as they stand in the log.
+  /// Where `noise` is empty, the covariances of the log stay.
   WeightedLog(std::unique_ptr<RecordedLog> log, const LogNoise& noise);
 
   const LogDescription& description() const override { return description_; }

@@ -1,4 +1,4 @@
-// A page: one HTML file with all that it needs.
+// A page: one HTML file with everything that it needs.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Page {
   std::vector<Listing> listings = {};
 };
 
-/// Films of more bytes than this are linked and not part of the page. [byte]
+/// Larger films are linked instead of embedded. [byte]
 inline constexpr std::uintmax_t largest_film = 8'000'000;
 
 /// `file` is where the page will be, for the link to a film that is too large for it; `library` the text of

@@ -10,8 +10,7 @@ namespace harness {
 
 // All throw BadInput if a file of the folder is missing or broken.
 
-/// Of a run or of a replay. With `replays` it is fed to its estimators again, for what the folder does not
-/// hold.
+/// The page of a run or replay. With `replays` the run is replayed for scores that its folder does not hold.
 Page run_page(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 
 /// The page of a finished sweep.
@@ -20,7 +19,7 @@ Page sweep_page(const std::filesystem::path& folder);
 /// The page of a stress test.
 Page stress_page(const std::filesystem::path& folder);
 
-/// The page that fits to what is in the folder.
+/// The page for the content of the folder.
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 
 }  // namespace harness

@@ -15,7 +15,7 @@ struct Drawn {
   Rgb colour = 0;
 };
 
-/// Map, errors, NEES and update times; without those of which the folder knows nothing. Throws BadInput if a
+/// Map, errors, NEES and update times, as far as the folder has them. Throws BadInput if a
 /// file is missing or broken.
 std::vector<Figure> run_figures(const std::filesystem::path& folder, const std::vector<Drawn>& estimators);
 

@@ -1,4 +1,4 @@
-// Chi-square bands of normalised errors, and how much lies inside.
+// Chi-square bands of normalised errors, and the share of values inside.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace harness {
 
-/// Where 95 % of the NEES per degree of freedom of a right filter lie, with 2.5 % on either side: quantiles
-/// of the chi-square distribution with `degrees` of freedom, over `degrees`. [-]
+/// The band that holds 95 % of the NEES per degree of freedom of a consistent filter, with 2.5 % on either side:
+/// quantiles of the chi-square distribution with `degrees` degrees of freedom, divided by `degrees`. [-]
 ConfidenceInterval chi_square_band(int degrees);
 
 /// The share of the values that lie in a band; nothing without values. [-]

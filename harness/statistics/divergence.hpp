@@ -1,5 +1,4 @@
-// When a filter has diverged, by what it can know itself: a running test of its innovations, without the
-// truth.
+// Detects without the truth that a filter has diverged: a running test of its innovations.
 #pragma once
 
 #include <array>
@@ -12,9 +11,8 @@ namespace harness {
 /// Follows the innovations of one estimator. Constant time and memory.
 ///
 /// For a consistent filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of
-/// freedom as numbers were measured. The test fires where the sum over the last `window` scans that saw known
-/// landmarks is beyond highest_nis(); or where the filter's gate has left out more of what was known than it
-/// let in.
+/// freedom as numbers were measured. The test fires if the sum over the last `window` scans that saw known
+/// landmarks is beyond highest_nis(), or if the filter's gate ignored more of their observations than it used.
 class InnovationTest {
  public:
   static constexpr std::size_t window = 10;  // [-] scans
@@ -22,7 +20,7 @@ class InnovationTest {
   /// One update: v' S^-1 v, its degrees of freedom, and how many observations the gate left out of this scan.
   void add(double t, double innovation, int degrees, std::int64_t gated);
 
-  /// When it first fired; nothing if it never did. [s]
+  /// The time when the test first fired; nothing if it never did. [s]
   std::optional<double> fired_t() const { return fired_t_; }
   /// The largest NIS over a window so far, for each degree of freedom; nothing before the first whole window.
   /// [-]
@@ -41,17 +39,16 @@ class InnovationTest {
   std::optional<double> worst_;
 };
 
-/// [-] sigma that are believed to be one: so many a filter may be too sure of itself, on ice or with wrong
-/// wheels, and find its way back.
+/// [-] The tolerated ratio of error to believed sigma: a filter may be overconfident by this factor, on ice or
+/// with wrong wheels, and still recover.
 inline constexpr double tolerated_sigma = 4.0;
 
-/// The NIS for each degree of freedom that a filter which is as wrong as is tolerated exceeds once in a
-/// billion times: the chi-square quantile over `degrees`, by Wilson and Hilferty's approximation, in constant
-/// time. [-]
+/// The NIS per degree of freedom that a filter with the tolerated error exceeds once in a billion times: the
+/// chi-square quantile over `degrees`, by Wilson and Hilferty's approximation, in constant time. [-]
 double highest_nis(int degrees);
 
-/// NEES of the pose for each degree of freedom beyond which a filter has diverged: once in a million times of
-/// a right one. [-]
+/// NEES of the pose per degree of freedom above which a filter has diverged: a consistent filter exceeds it once
+/// in a million times. [-]
 double highest_nees_pose();
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Means over runs, and how far they can be trusted. Definitions: docs/scores.md.
+// Means over runs, with confidence intervals. Definitions: docs/scores.md.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Estimate {
   std::optional<ConfidenceInterval> interval;
 };
 
-/// The mean, with Student's interval; without one for a single value. Nothing for none.
+/// The mean with Student's interval; without interval for a single value. Nothing without values.
 std::optional<Estimate> mean_of(std::span<const double> sample);
 
 /// The ratio of the means of two paired samples, with Fieller's interval (1954), which takes the pairs'

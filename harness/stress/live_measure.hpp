@@ -8,9 +8,9 @@
 
 namespace harness {
 
-/// Runs the filters of `warm` on in `world`, from where the robot is, and fills in the row. Each runs alone,
-/// on the same stream: beside a filter that goes through all of the caches, any other would be slow. What the
-/// row says of everything else was measured with the first.
+/// Continues the filters of `warm` in `world`, from the robot's present pose, and fills in the row. Each runs
+/// alone, on the same stream: beside a filter that uses all of the caches, any other would be slow. Everything
+/// else in the row is measured with the first filter.
 void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart& warm,
                   const std::atomic<bool>& stop, StressRow& row);
 

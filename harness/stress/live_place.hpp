@@ -14,9 +14,9 @@
 
 namespace harness {
 
-/// What was measured at one place, or at all so far.
+/// The measurements at one place, or at all places so far.
 struct LiveSamples {
-  /// With room for so many updates that is in memory already: taking samples must not look like growth.
+  /// Reserves and touches memory for this many updates: taking samples must not look like growth.
   LiveSamples(std::int64_t expected_updates, const worlds::World& world);
 
   void add(const LiveSamples& other);

@@ -1,10 +1,10 @@
-// What of this process is in memory.
+// The resident memory of this process.
 #pragma once
 
 namespace harness {
 
-/// Resident, after the allocator has given back what it does not need. [byte] 0 where the system does not
-/// tell.
+/// Resident memory after the allocator has returned what it does not need. [byte] 0 if the system does not
+/// report it.
 double resident_bytes();
 
 }  // namespace harness

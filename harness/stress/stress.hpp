@@ -1,4 +1,4 @@
-// What everything together costs in worlds of one density, from a hundred landmarks to a million.
+// The cost of everything together in worlds of one density, from a hundred landmarks to a million.
 #pragma once
 
 #include <atomic>
@@ -21,8 +21,8 @@ struct StressPlan {
   StressWorldSpec world;  // its number of landmarks changes from row to row
   std::vector<std::int64_t> landmarks = {100, 1'000, 10'000, 100'000};  // ascending
   std::int64_t updates = 1'000;                                         // [-] that are measured
-  /// [-] Evenly along the second round, with a share of the updates at each: what one place costs depends on
-  /// how the tree of the map happens to be cut there.
+  /// [-] Evenly along the second round, with a share of the updates at each: the cost at one place depends on
+  /// how the tree of the map is cut there.
   std::int64_t places = 10;
   double slowest_ms = 50.0;  // [ms] for an update in a warm start, on the average
   std::map<std::string, std::int64_t> most_landmarks = {{"ekf", 5'000}, {"eif", 500}};  // by estimator

@@ -1,5 +1,5 @@
-// A filter that has mapped a world before anything is measured: it drives the whole round with the engine
-// without contacts, on the same sensors, rates and noise as afterwards.
+// Filters that have mapped a world before anything is measured: the robot drives the whole round with the kinematic
+// engine, with the same sensors, rates and noise as afterwards.
 #pragma once
 
 #include <atomic>
@@ -38,8 +38,8 @@ WarmStart warm_start(const worlds::World& world, const seif::Registry& registry,
                      const WarmStartLimits& limits, const std::atomic<bool>& stop,
                      const std::function<void(double t)>& progress);
 
-/// Drives on along the round, with the same engine, from where `world` has its robot start: so many updates.
-/// Returns where the robot is then.
+/// Drives on along the round for `updates` updates, with the same engine, from the start pose of `world`.
+/// Returns the final pose.
 seif::Pose2 drive_on(const worlds::World& world, Believers& believers, std::int64_t updates,
                      const std::atomic<bool>& stop);
 

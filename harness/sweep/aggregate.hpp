@@ -34,7 +34,7 @@ struct EstimatorStatistics {
   const ScoreStatistics* find(const std::string& score) const;  // null: no run has it
 };
 
-/// All runs of one setting; `failed` of them say nothing of any estimator.
+/// All runs of one setting; `failed` of them have no scores.
 struct SettingStatistics {
   std::vector<std::string> values;  // of the axes
   std::vector<EstimatorStatistics> estimators;
@@ -51,7 +51,7 @@ struct Aggregate {
   std::vector<SettingStatistics> settings;
 };
 
-/// Of the runs of one setting that did not fail, in the order of the seeds, and the number of those that did.
+/// Aggregates the finished runs of one setting, in the order of the seeds. `failed`: the number of other runs.
 std::vector<EstimatorStatistics> aggregate_runs(std::span<const std::vector<EstimatorRow>> runs,
                                                 std::size_t failed, const std::string& baseline);
 
@@ -60,10 +60,10 @@ std::string to_json(const Aggregate& aggregate);
 /// A row for each setting, estimator and score.
 std::string to_csv(const Aggregate& aggregate);
 
-/// The most telling scores.
+/// The most important scores.
 std::vector<TextRow> aggregate_table(const Aggregate& aggregate);
 
-/// The same as text; what failed stands below.
+/// The same as text, with the failures below.
 std::string aggregate_board(const Aggregate& aggregate);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The cells of a sweep on disk: what is there is whole, whatever was killed and when.
+// The cells of a sweep on disk. A file that is there is complete, whatever process was killed.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace harness {
 
-/// A file that gets its name in one step, when all of it is on the disk: nobody ever finds a part of it, not
+/// A file that gets its name in one step, when it is completely on the disk: no reader finds a part of it, not
 /// even after a crash of the machine. Several processes, on several machines, may write the same one at once.
 /// All functions throw std::system_error.
 class DurableFile {
@@ -30,7 +30,7 @@ class DurableFile {
 /// The whole text as a durable file.
 void write_durable_file(const std::filesystem::path& path, std::string_view text);
 
-/// Takes away what writers of durable files that were killed have left in a folder.
+/// Removes the remains of killed writers of durable files from a folder.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 enum class CellState { open, failed, done };
@@ -43,11 +43,11 @@ class CellFolder {
   /// The states of all `count` cells, by index.
   std::vector<CellState> states(std::size_t count) const;
 
-  /// The text of a cell that is done, or why it failed.
+  /// The text of a finished cell, or why it failed.
   std::string result(std::size_t index) const;
   std::string failure(std::size_t index) const;
 
-  /// A result takes the place of a failure.
+  /// A result replaces a failure.
   void put_result(std::size_t index, std::string_view text) const;
   void put_failure(std::size_t index, std::string_view reason) const;
 

@@ -22,7 +22,7 @@ struct SweepFolder {
   std::vector<CellState> states() const { return cells().states(cell_count(plan)); }
 };
 
-/// Opens the folder of a sweep that was begun. Throws BadInput if it is none.
+/// Opens the folder of a sweep. Throws BadInput if it is not one.
 SweepFolder open_sweep(const std::filesystem::path& folder);
 
 /// Begins a sweep, or goes on with one that is the same; several processes may do so at once. `write_world`
@@ -34,7 +34,7 @@ SweepFolder begin_sweep(const std::filesystem::path& folder, const SweepPlan& pl
 /// Throws BadInput if the two are not parts of one sweep.
 void check_same_sweep(const SweepFolder& theirs, const SweepFolder& ours);
 
-/// Takes away what processes that were killed have left; for when no other works on the folder.
+/// Removes the remains of killed processes. No other process may work on the folder.
 void remove_unfinished(const SweepFolder& sweep);
 
 /// Copies world.yaml and what it needs.

@@ -1,4 +1,4 @@
-// What a sweep is to run: the product of settings and seeds.
+// The plan of a sweep: the product of settings and seeds.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct SweepAxis {
   bool operator==(const SweepAxis&) const = default;
 };
 
-/// Everything that decides what comes out. Two sweeps with equal plans and equal world files are one.
+/// Everything that decides the result. Two sweeps with equal plans and equal world files are the same.
 struct SweepPlan {
   std::string name;                  // of the world
   std::string version;               // of the program
@@ -37,7 +37,7 @@ struct SweepCell {
 /// The most cells that a sweep may have.
 inline constexpr std::size_t most_cells = 10'000'000;
 
-/// Reads `path=v1,v2,..`. A comma inside brackets, braces or quotes separates nothing. Throws BadInput.
+/// Reads `path=v1,v2,..`. A comma inside brackets, braces or quotes does not separate. Throws BadInput.
 SweepAxis parse_axis(std::string_view text);
 
 /// Throws BadInput if an axis stands twice, or there are more than most_cells.
@@ -53,7 +53,7 @@ std::vector<std::string> values_of(const SweepPlan& plan, std::size_t setting);
 /// The path of each axis for people: its last key, or all of it where another axis has the same.
 std::vector<std::string> short_paths(const SweepPlan& plan);
 
-/// What makes the world of a cell out of the sweep's: `path.to.key=value`.
+/// The overrides that make the world of a cell: `path.to.key=value`.
 std::vector<std::string> overrides_of(const SweepPlan& plan, const SweepCell& cell);
 
 /// "seif.theta_x=6, seed 3", for people.
@@ -64,7 +64,7 @@ std::string to_json(const SweepPlan& plan);
 /// Throws BadInput, which names `file`.
 SweepPlan plan_from_json(const std::string& text, const std::string& file);
 
-/// What of two different plans differs, as in "its seeds are 1..5, and not 1..8"; the first of all.
+/// The first difference between two plans, as in "its seeds are 1..5, and not 1..8".
 std::string difference_between(const SweepPlan& its, const SweepPlan& ours);
 
 }  // namespace harness

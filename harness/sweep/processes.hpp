@@ -1,4 +1,4 @@
-// Jobs in processes of their own: the crash of one takes no other down.
+// Jobs in separate processes: a crash of one does not affect the others.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace harness {
 
-/// How a process came to its end.
+/// How a process ended.
 struct ProcessEnd {
   std::optional<int> exit_code;  // nothing: a signal ended it
   int signal = 0;

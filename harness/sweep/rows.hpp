@@ -1,4 +1,4 @@
-// What a cell of a sweep says of each estimator, as rows of named values.
+// The scores of each estimator in a cell of a sweep, as rows of named values.
 #pragma once
 
 #include <optional>

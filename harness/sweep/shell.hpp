@@ -1,4 +1,4 @@
-// Programs that are called for what they print.
+// Calls programs and returns what they print.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace harness {
 
-/// A word as a shell reads it back, whatever stands in it.
+/// A word quoted for a shell, whatever characters it has.
 std::string shell_quoted(const std::string& word);
 
 /// Runs a program, found along PATH, and waits for its end; what it prints to stderr goes to ours. Returns

@@ -1,5 +1,5 @@
 // Sweeps on a cluster under Slurm: a job array of shards that share the sweep's folder, and a job that merges
-// what they have done. Nothing is remembered here but the folder: what is in the queue, Slurm knows.
+// their results. Only the folder is stored: Slurm knows what is in the queue.
 #pragma once
 
 #include <cstddef>

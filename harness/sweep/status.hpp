@@ -1,4 +1,4 @@
-// How far a sweep is.
+// The progress of a sweep.
 #pragma once
 
 #include <cstddef>

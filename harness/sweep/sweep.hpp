@@ -1,4 +1,4 @@
-// Sweeps: many runs of a world, in processes of their own, as far as they are not done yet.
+// Sweeps: many runs of a world in separate processes. Finished runs are not repeated.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct Shard {
 /// Reads "3/16". Throws BadInput.
 Shard parse_shard(std::string_view text);
 
-/// What a command line says of a sweep.
+/// The choices of a command line for a sweep.
 struct SweepChoices {
   std::filesystem::path world;
   std::string seeds;
@@ -33,7 +33,7 @@ struct SweepChoices {
   std::string baseline;                // empty: the ekf, or the first
 };
 
-/// A sweep that can be run, or what is wrong with its world.
+/// A sweep that can be run, or the problems of its world.
 struct BegunSweep {
   std::optional<SweepFolder> folder;
   std::vector<worlds::Problem> problems;
@@ -54,7 +54,7 @@ Aggregate read_aggregate(const SweepFolder& sweep);
 /// Writes runs.csv, times.csv, aggregate.csv and aggregate.json once no cell is open any more.
 Aggregate write_tables(const SweepFolder& sweep);
 
-/// Puts the cells of sweeps that are parts of one into one folder, which may be among them. Throws BadInput.
+/// Merges the cells of partial sweeps into one folder, which may be one of them. Throws BadInput.
 SweepFolder merge_sweeps(const std::vector<std::string>& folders, const std::filesystem::path& out);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Ctrl-C and the request to terminate: a run ends properly.
+// Ctrl-C and SIGTERM: a run ends properly.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// How far a run is, or many are, on a terminal.
+// The progress of one run or many, on a terminal.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// One line of stderr that is rewritten now and then, if that is a terminal.
+/// A line of stderr that is rewritten from time to time, if stderr is a terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -15,7 +15,7 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Whether it is time to show something new.
+  /// Whether it is time for an update of the line.
   bool is_due();
   void show(const std::string& line);
   double elapsed() const;  // [s] since it was made
