@@ -1,4 +1,4 @@
-// The mean by rigid groups of landmarks of every size, as Seif asks for it.
+// Mean recovery by rigid groups of landmarks of every size, for Seif.
 #pragma once
 
 #include <cstdint>

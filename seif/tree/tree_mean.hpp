@@ -1,4 +1,4 @@
-// The mean along a condensation tree, as Seif asks for it.
+// Mean recovery with a condensation tree, for Seif.
 #pragma once
 
 #include <cstdint>
