@@ -2,8 +2,9 @@
 //
 // One pair is compatible if v' S^-1 v of its innovation v is inside the chi-square gate of two degrees of
 // freedom. A hypothesis of k pairs is compatible if v' S^-1 v of all innovations together is inside the gate of 2k
-// degrees of freedom: the innovations are correlated, because they share the pose. Neira, Tardos, "Data association in stochastic mapping using
-// the joint compatibility test", IEEE Transactions on Robotics and Automation 17(6), 2001.
+// degrees of freedom: the innovations are correlated, because they share the pose. Neira, Tardos, "Data
+// association in stochastic mapping using the joint compatibility test", IEEE Transactions on Robotics and
+// Automation 17(6), 2001.
 #pragma once
 
 #include <Eigen/Core>
