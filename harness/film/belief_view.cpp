@@ -17,25 +17,28 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::size_t others_read = 256;  // [-] landmarks out of view whose means a frame reads, in turn
-// How many scans lie between two refreshes of what costs more than a constant: a share of that cost.
-constexpr std::size_t landmarks_for_each_scan = 50;  // [-] the matrix is read in a pass over the map
-constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly the square of it
+constexpr std::size_t others_read = 256;  // [-] landmarks out of view that each frame reads, in turn
+// The number of scans between two refreshes grows with the cost of a refresh, so that the mean cost of a scan
+// is bounded.
+constexpr std::size_t landmarks_for_each_scan = 50;  // [-] reading the matrix takes a pass over the map
+constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly the square of
+                                                                 // the map
 constexpr std::size_t most_refreshed = 10'000;  // [-] landmarks; larger maps are not read as a whole
-// A frame draws at most about this many of each:
-constexpr std::size_t most_links = 2000;     // [-] the strongest
-constexpr std::size_t most_dots = 4000;      // [-] of landmarks; any
-constexpr std::size_t most_ellipses = 1000;  // [-] likewise, and lines of error
+// Approximate limits of what a frame draws.
+constexpr std::size_t most_links = 2000;     // [-] the strongest links
+constexpr std::size_t most_dots = 4000;      // [-] dots of landmarks, a fixed choice
+constexpr std::size_t most_ellipses = 1000;  // [-] ellipses and error lines, a fixed choice
 
 Vector3d above_ground(const Vector2d& p) { return {p.x(), p.y(), 0.02}; }
 
-/// Whether a landmark is among that share of all of them: always the same ones, and more the larger it is.
+/// True for about this share of the landmarks. The choice is always the same; a larger share adds to a
+/// smaller one.
 bool is_among(seif::LandmarkId id, double share) {
   const auto scattered = static_cast<std::uint32_t>(id) * 2654435769U;  // Fibonacci hashing
   return static_cast<double>(scattered) < share * 4294967296.0;
 }
 
-/// [-] so that of `count` about `most` are left.
+/// [-] the share that leaves about `most` of `count`
 double share_of(std::size_t count, std::size_t most) {
   return std::min(1.0, static_cast<double>(most) / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
@@ -101,7 +104,8 @@ void BeliefView::look(const Gaze& gaze, const seif::Pose2& T_since, const worlds
   read_covariances(layers);
 }
 
-/// Landmarks in view, and in turn some that are not: one that the map has moved comes into view in time.
+/// Reads the landmarks in view and, in turn, some that are not: a landmark that the map has moved into view
+/// is found after a while.
 void BeliefView::read_means(const Gaze& gaze) {
   means_.within(gaze.area, in_view_);
   const std::size_t shown = in_view_.size();
@@ -130,7 +134,8 @@ void BeliefView::read_couplings(const worlds::FilmLayers& layers) {
   for (const seif::LandmarkId id : in_view_) {
     estimator_.filter->couplings(id, couplings_);
     for (const seif::Coupling& coupling : couplings_) {
-      // Once for both ends where both are read; the other end of a link out of view is not.
+      // A link between two landmarks in view is drawn once. For a landmark out of view, couplings are not
+      // read.
       if (coupling.other != seif::no_landmark && coupling.other > id && means_.position(coupling.other))
         drawn_links_.push_back({id, coupling.other, coupling.strength});
     }
@@ -151,7 +156,7 @@ void BeliefView::refresh(const worlds::FilmLayers& layers) {
   const std::size_t n = means_.size();
   if (layers.matrix && matrix_refresh_.is_due(n / landmarks_for_each_scan))
     matrix_.read(*estimator_.filter, means_);
-  // A filter in covariance form has them at hand. The others must factorise all that they know.
+  // A filter in covariance form has the covariances at hand. Other filters must factorise their whole matrix.
   const bool is_wanted = layers.ellipses || layers.pose_error;
   if (is_wanted && estimator_.filter->belief_matrix() != seif::BeliefMatrix::covariance &&
       covariance_refresh_.is_due(n * n / squared_landmarks_for_each_scan))
@@ -165,7 +170,7 @@ bool BeliefView::Refresh::is_due(std::size_t period) {
   return true;
 }
 
-/// Draws the ellipses of the landmarks in view whose covariances are at hand.
+/// Reads the covariances of the landmarks in view from a filter that has them at hand.
 void BeliefView::read_covariances(const worlds::FilmLayers& layers) {
   if (!layers.ellipses || estimator_.filter->belief_matrix() != seif::BeliefMatrix::covariance) return;
   const auto belief = estimator_.filter->marginal_covariances(in_view_);
@@ -179,7 +184,7 @@ void BeliefView::read_all_covariances() {
   std::optional<seif::MarginalCovariances> belief;
   try {
     belief = estimator_.filter->marginal_covariances(ids);
-  } catch (const std::exception&) {  // an improper belief has none; the run itself says so
+  } catch (const std::exception&) {  // an improper belief has none; the run itself reports it
   }
   covariances_.clear();
   pose_covariance_.reset();
@@ -211,7 +216,7 @@ void BeliefView::append_map(const Gaze& gaze, const worlds::FilmLayers& layers, 
   }
 }
 
-/// What the estimator thinks of its error, and the error.
+/// Appends the covariance ellipse and the error.
 void BeliefView::append_uncertainty(seif::LandmarkId id, const Vector2d& mean, const Gaze& gaze,
                                     const worlds::FilmLayers& layers, const Stage& stage,
                                     render::Marks& marks) const {
@@ -229,7 +234,7 @@ void BeliefView::append_links(const Gaze& gaze, const worlds::FilmLayers& layers
                               render::Things& things) const {
   std::vector<render::Stroke>& strokes = things.marks_on_top.strokes;
   for (const DrawnLink& link : drawn_links_) {
-    // Those next to be left out are faint: none comes or goes all at once.
+    // Links near the limit are faint, so that links do not appear or vanish abruptly.
     const double share = weakest_drawn_ > 0.0 ? std::min(1.0, link.strength / weakest_drawn_ - 1.0) : 1.0;
     const auto alpha = static_cast<float>(share * (0.06 + 0.8 * link.strength));
     strokes.push_back({above_ground(*means_.position(link.from)), above_ground(*means_.position(link.to)),
@@ -256,8 +261,8 @@ void BeliefView::append_robot(const Gaze& gaze, const worlds::FilmLayers& layers
   trail_.for_each_leg(p, [&](const Vector2d& from, const Vector2d& to) {
     marks.strokes.push_back({above_ground(from), above_ground(to), 2.0F * gaze.scale, paint(colour_)});
   });
-  // An arrowhead without a size of its own in the world would turn with the camera; so it is half a metre
-  // long.
+  // The arrowhead is half a metre long in the world. With a fixed size on the image it would turn with the
+  // camera.
   for (const double side : {2.6, -2.6}) {
     const Vector2d barb = pose_ * Vector2d(0.35 + 0.5 * std::cos(side), 0.5 * std::sin(side));
     marks.strokes.push_back(

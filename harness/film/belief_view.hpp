@@ -1,4 +1,4 @@
-// The belief of one estimator as it is drawn. Only what is in view is read from the estimator.
+// The picture of an estimator's belief. Only what is in view is read from the estimator.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,33 +21,33 @@
 
 namespace harness {
 
-/// The camera's part in drawing a belief.
+/// What a frame must know about the camera.
 struct Gaze {
   Frustum frustum;
-  Area area;             // [m] of the ground that is in view
-  float scale;           // [-] of lengths in pixels
-  float mark_scale;      // [-] the same for what there are thousands of: smaller where the camera is far away
-  double smallest_mark;  // [m] what is shorter than this hides behind the dot of a landmark
+  Area area;             // [m] the ground in view
+  float scale;           // [-] factor for lengths in pixels
+  float mark_scale;      // [-] factor for marks of which there are thousands: smaller if the camera is far
+                         // away
+  double smallest_mark;  // [m] anything shorter is hidden behind the dot of a landmark
 };
 
 class BeliefView {
  public:
-  /// Charts run from `start` to `end` [s] in `bins` steps. `estimator` must live as long.
+  /// Charts run from `start` to `end` [s] in `bins` intervals. `estimator` must outlive the view.
   BeliefView(const LiveEstimator& estimator, Rgb colour, double start, double end, int bins);
 
   void scan(const ScanEvent& event);
   void update(const UpdateRecord& record);
 
-  /// Reads what a frame shows. `T_since` is the odometry since the last event, so that the estimate moves as
+  /// Reads what a frame shows. `T_since` is the odometry since the last event; the estimate moves by it, as
   /// smoothly as the robot.
   void look(const Gaze& gaze, const seif::Pose2& T_since, const worlds::FilmLayers& layers);
 
-  /// Notes new landmarks. Reads the matrix and computed covariances if they are due: they are not read for each
-  /// frame.
-  /// Part of look(). Between frames it gives the charts their values.
+  /// Takes in new landmarks. Reads what is not read for each frame if it is due: the matrix, and covariances
+  /// that must be computed. look() calls it; a call between frames keeps the charts up to date.
   void refresh(const worlds::FilmLayers& layers);
 
-  /// What look() has read.
+  /// Appends what look() has read.
   void append(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
               const std::optional<seif::Pose2>& true_pose, render::Things& things) const;
 
@@ -76,11 +76,12 @@ class BeliefView {
   void append_robot(const Gaze& gaze, const worlds::FilmLayers& layers,
                     const std::optional<seif::Pose2>& true_pose, render::Things& things) const;
 
-  /// For something that is not read for each frame.
+  /// When something that is not read for each frame was last read.
   struct Refresh {
     std::size_t scans = 0;  // [-] since the last one
     bool was_done = false;
-    /// Whether more than `period` scans have passed, or there was none yet; then it counts as done.
+    /// True if more than `period` scans have passed, or if this is the first time. The count then starts
+    /// again.
     bool is_due(std::size_t period);
   };
 
@@ -98,24 +99,24 @@ class BeliefView {
   Series three_sigma_;
   MatrixPicture matrix_;
 
-  PointIndex means_{4.0};              // of all landmarks, each as it was when last read
-  std::vector<seif::LandmarkId> new_;  // seen since the last frame and perhaps in the map by now
-  std::size_t turn_ = 0;               // whose mean is read next although it is out of view
+  PointIndex means_{4.0};              // all landmarks, each with the mean that was read last
+  std::vector<seif::LandmarkId> new_;  // seen since the last frame, perhaps in the map by now
+  std::size_t turn_ = 0;               // number of the landmark out of view that is read next
   std::int64_t links_ = 0;
   double t_ = 0.0;  // [s] of the last update
   Refresh matrix_refresh_;
   Refresh covariance_refresh_;
-  std::optional<Eigen::Matrix3d> pose_covariance_;                     // where it is known
-  std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as it was when last read
+  std::optional<Eigen::Matrix3d> pose_covariance_;                     // empty if not known
+  std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as read last
 
-  // What belongs to the present frame; reused.
+  // For the present frame; reused.
   seif::Pose2 pose_;
   std::vector<seif::LandmarkId> in_view_;
   std::vector<seif::LandmarkEstimate> read_;
   std::vector<seif::Coupling> couplings_;
   std::vector<seif::LandmarkId> active_;  // ascending
   std::vector<DrawnLink> drawn_links_;
-  double weakest_drawn_ = 0.0;  // [-] strength from which on links are drawn; 0: all are
+  double weakest_drawn_ = 0.0;  // [-] links of at least this strength are drawn; 0: all
 };
 
 }  // namespace harness

@@ -12,14 +12,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double field_of_view = 0.75;  // [rad] from bottom to top
-constexpr double calm = 0.6;            // [s] of film time in which the camera follows
+constexpr double field_of_view = 0.75;  // [rad] vertical
+constexpr double calm = 0.6;            // [s] time constant of following, in film time
 
 Vector3d on_ground(const Vector2d& p) { return {p.x(), p.y(), 0.0}; }
 
 Vector2d direction(double heading) { return {std::cos(heading), std::sin(heading)}; }
 
-/// What the subject covers of an image that goes from -1 to 1.
+/// The part of the image, from -1 to 1, that the subject covers.
 struct Extent {
   Vector2d min = Vector2d::Constant(INFINITY);
   Vector2d max = Vector2d::Constant(-INFINITY);
@@ -37,7 +37,8 @@ Extent extent_on(const Frustum& frustum, const Area& subject) {
   return extent;
 }
 
-/// The least number between two from which on a condition holds.
+/// The smallest number between two limits for which a condition holds. The condition holds for all larger
+/// numbers too.
 template <class Condition>
 double bisect(double from, double to, const Condition& holds) {
   for (int i = 0; i < 40; ++i) {
@@ -72,8 +73,8 @@ render::Camera CameraMan::camera(const seif::Pose2& T_world_robot, double step) 
   return camera;
 }
 
-/// From the south, high up, just far enough away for all corners to be in view, as high above its middle as
-/// below.
+/// The camera stands in the south, high up. It is just far enough away for all corners to be in view, and the
+/// margins above and below the subject are equal.
 render::Camera CameraMan::overview() const {
   constexpr double filled = 0.94;  // [-] of the view
   const Vector3d line = Vector3d(0.0, 0.62, -0.78).normalized();
@@ -92,10 +93,11 @@ render::Camera CameraMan::overview() const {
   const auto shift_for = [&](double distance) {
     return bisect(-0.5 * diagonal, 0.5 * diagonal, [&](double shift) {
       const Extent extent = extent_at(distance, shift);
-      return extent.max.y() + extent.min.y() < 0.0;  // too low on the image: the camera looks too far
+      return extent.max.y() + extent.min.y() < 0.0;  // the subject is too low on the image: the camera aims
+                                                     // too far
     });
   };
-  // Nearer than half a diagonal some corners may lie behind the camera.
+  // Nearer than half a diagonal, some corners may lie behind the camera.
   const double distance = bisect(0.5 * diagonal, 20.0 * diagonal, [&](double tried) {
     const Extent extent = extent_at(tried, shift_for(tried));
     return extent.min.minCoeff() >= -filled && extent.max.maxCoeff() <= filled;
@@ -103,7 +105,7 @@ render::Camera CameraMan::overview() const {
   return camera_at(distance, shift_for(distance));
 }
 
-/// What is followed goes to the robot with a time constant of film time.
+/// Moves the followed point towards the robot, with a time constant in film time.
 void CameraMan::follow(const seif::Pose2& T_world_robot, double step) {
   const Vector2d p(T_world_robot.x, T_world_robot.y);
   if (!has_followed_) {
@@ -168,7 +170,7 @@ Vector2d Frustum::on_image(const Eigen::Vector3d& p_world) const {
 bool Frustum::sees(const Eigen::Vector3d& p_world, double radius) const {
   const Vector3d d = p_world - eye_;
   const double depth = is_orthographic_ ? 1.0 : d.dot(forward_);
-  // The sides of a wide field lean: a sphere reaches further into it than its radius.
+  // The sides of a wide field of view are oblique, so a sphere reaches further into it than its radius.
   const double margin = radius * (is_orthographic_ ? 1.0 : std::hypot(1.0, std::max(tan_x_, tan_y_)));
   return depth > -radius && std::abs(d.dot(right_)) <= depth * tan_x_ + margin &&
          std::abs(d.dot(up_)) <= depth * tan_y_ + margin;

@@ -1,4 +1,4 @@
-// The camera of each frame, and the part of the ground that it sees.
+// Places the camera in each frame, and says which part of the ground it sees.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,21 +11,21 @@
 
 namespace harness {
 
-/// What a camera is set up for.
+/// What a camera is to show.
 struct CameraBrief {
   worlds::FilmCamera kind = worlds::FilmCamera::overview;
-  Area subject;                          // all that an overview shows [m]
-  double reach = 8.0;                    // [m] that is of interest about the robot
+  Area subject;                          // [m] what an overview shows in full
+  double reach = 8.0;                    // [m] radius of interest around the robot
   double aspect = 1.0;                   // [-] width over height of the view
-  Eigen::Vector3d eye = {-15, -15, 12};  // [m] of the fixed camera
-  Eigen::Vector3d target = {0, 0, 0};    // [m] of the fixed camera
+  Eigen::Vector3d eye = {-15, -15, 12};  // [m] position of the fixed camera
+  Eigen::Vector3d target = {0, 0, 0};    // [m] point that the fixed camera looks at
 };
 
 class CameraMan {
  public:
   explicit CameraMan(const CameraBrief& brief) : brief_(brief) {}
 
-  /// The camera `step` [s] of film time after the frame before.
+  /// The camera of the next frame, `step` [s] of film time after the last one.
   render::Camera camera(const seif::Pose2& T_world_robot, double step);
 
  private:
@@ -37,8 +37,9 @@ class CameraMan {
 
   CameraBrief brief_;
   bool has_followed_ = false;
-  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] that is followed, calmer than the robot
-  double heading_ = 0.0;                                // [rad] likewise
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] point that the camera follows: the robot's
+                                                        // position, smoothed
+  double heading_ = 0.0;                                // [rad] the robot's heading, smoothed
   double film_t_ = 0.0;                                 // [s]
 };
 
@@ -47,19 +48,20 @@ class Frustum {
  public:
   Frustum(const render::Camera& camera, double aspect);
 
-  /// Where a point that is not behind the camera lies on the image: from (-1, -1), below left, to (1, 1).
+  /// The position on the image of a point in front of the camera, from (-1, -1), lower left, to (1, 1).
   Eigen::Vector2d on_image(const Eigen::Vector3d& p_world) const;
 
-  /// Whether something of this size [m] about the point may be seen.
+  /// True if a sphere of this radius [m] about the point may be in view.
   bool sees(const Eigen::Vector3d& p_world, double radius) const;
 
-  /// The ground that may be seen, no further than `reach` [m] from the eye's foot.
+  /// The ground that may be in view, at most `reach` [m] from the point below the eye.
   Area ground(double reach) const;
 
  private:
   Eigen::Vector3d eye_;
   Eigen::Vector3d right_, up_, forward_;  // unit length
-  double tan_x_, tan_y_;                  // [-] of half the field of view; orthographic: half the extent [m]
+  double tan_x_, tan_y_;                  // tangent of half the field of view [-]; orthographic: half the
+                                          // extent [m]
   bool is_orthographic_;
 };
 

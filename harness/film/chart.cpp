@@ -16,7 +16,7 @@ namespace {
 
 using Overlay = std::vector<render::OverlayItem>;
 
-/// The vertical axis: where a value lies between 0, the bottom, and 1.
+/// The vertical axis. It maps a value to a height between 0 (bottom) and 1 (top).
 struct Axis {
   Scale scale = Scale::linear;
   double bottom = 0.0;
@@ -71,7 +71,7 @@ Axis axis_of(const Chart& chart) {
   return axis;
 }
 
-/// A number as short as it can be.
+/// A short text for a number.
 std::string tick_label(double value) {
   if (value >= 1e6) return fmt::format("{:.3g}M", value / 1e6);
   if (value >= 1e3) return fmt::format("{:.3g}k", value / 1e3);
@@ -124,7 +124,7 @@ class Plot {
     if (line.points.size() > 1) overlay.push_back(std::move(line));
   }
 
-  /// Title at the left, the latest value of each curve at the right.
+  /// The title on the left, the latest value of each curve on the right.
   void append_head(Overlay& overlay) const {
     const float y = chart_.frame.y + 15.0F * scale_;
     const float size = 13.0F * scale_;
@@ -151,8 +151,8 @@ class Plot {
     return value ? fmt::format("{} {:.{}f}", label, *value, decimals) : std::string();
   }
 
-  /// Name and latest value of a curve. If those of all curves do not fit into the room together, each has an
-  /// equal part.
+  /// The name and the latest value of a curve. If they do not fit for all curves together, each curve gets an
+  /// equal part of the room.
   std::string latest(const Curve& curve, float size, float room) const {
     const auto width = [&](const std::string& words) {
       return render::text_width(words, size, render::Weight::bold);
@@ -166,7 +166,7 @@ class Plot {
     return latest(curve, label, chart_.decimals);
   }
 
-  /// Where the run begins and ends.
+  /// The times at which the run begins and ends.
   void append_time_axis(Overlay& overlay) const {
     if (chart_.curves.empty()) return;
     const Series& series = *chart_.curves.front().values;
@@ -195,7 +195,7 @@ class Plot {
   const Chart& chart_;
   Axis axis_;
   float scale_;
-  Frame area_;  // of the curves
+  Frame area_;  // for the curves
 };
 
 }  // namespace

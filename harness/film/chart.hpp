@@ -14,7 +14,7 @@ struct Curve {
   std::string label;
   Rgb colour = 0;
   const Series* values = nullptr;
-  const Series* band = nullptr;  // shaded from zero up to it; null: none
+  const Series* band = nullptr;  // shaded from zero up to this curve; null: no band
 };
 
 enum class Scale { linear, logarithmic };
@@ -31,13 +31,13 @@ struct Chart {
   Frame frame;
   std::string title;
   std::string unit;
-  int decimals = 0;  // [-] of the latest values
+  int decimals = 0;  // digits after the decimal point of the latest values
   Scale scale = Scale::linear;
   std::vector<Curve> curves;
 };
 
-/// Appends the chart with its axes. The vertical axis grows with the values, by steps that look round;
-/// lengths that are not the frame's are times `scale`.
+/// Appends the chart and its axes. The vertical axis ends at a round number at or above the largest value.
+/// All lengths but those of the frame are multiplied by `scale`.
 void append_chart(const Chart& chart, float scale, std::vector<render::OverlayItem>& overlay);
 
 }  // namespace harness

@@ -17,10 +17,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double same_time = 1e-9;      // [s]
-constexpr double longest = 40.0;        // [s] of a film whose speed is not said
-constexpr double past_notes = 60.0;     // [-] of what went before the first frame
-constexpr double farthest_view = 12.0;  // [-] times what is of interest about the robot
+constexpr double same_time = 1e-9;      // [s] times this close are the same
+constexpr double longest = 40.0;        // [s] film time, if no speed is given
+constexpr double past_notes = 60.0;     // [-] number of times at which charts are updated before the first
+                                        // frame
+constexpr double farthest_view = 12.0;  // [-] in units of the radius of interest around the robot
 
 double between(double from, double to, double share) { return from + share * (to - from); }
 
@@ -39,7 +40,7 @@ TruePose between(const TruePose& from, const TruePose& to, double share) {
 }
 
 CameraBrief brief_of(const worlds::Film& film, const Stage& stage, const Frame& view) {
-  constexpr double nearest = 8.0;  // [m] closer up the robot would hide what it sees
+  constexpr double nearest = 8.0;  // [m] if the camera were closer, the robot would hide what it sees
   return {film.camera, stage.subject(), std::max(nearest, stage.reach()), view.width / view.height,
           film.eye,    film.target};
 }
@@ -157,7 +158,7 @@ void Film::update(std::size_t estimator, const UpdateRecord& record) {
   }
 }
 
-/// What happens before the first frame is in its charts.
+/// Updates the charts for the time before the first frame.
 void Film::note_past(double t) {
   while (next_note_ < past_.frames() && past_.time_of(next_note_) < t - same_time) {
     ++next_note_;
@@ -165,7 +166,7 @@ void Film::note_past(double t) {
   }
 }
 
-/// Draws the frames before an event. Those at its own time show what comes of it.
+/// Draws the frames before an event. A frame at the event's own time is drawn after the event.
 void Film::advance_to(double t, const std::optional<TruePose>& truth, const seif::Pose2& increment) {
   note_past(t);
   while (!is_over() && plan_.clock.time_of(next_frame_) < t - same_time) {
@@ -199,7 +200,7 @@ void Film::finish(bool has_ended) {
   sink_->finish();
 }
 
-/// The truth; without it what the first estimator believes; without one what odometry says.
+/// The best known pose: the truth, otherwise the first estimator's pose, otherwise that of odometry.
 seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
   if (now_) return now_->T_world_robot;
   if (!filmed_.empty() && views_.front().failure().empty())
@@ -208,11 +209,12 @@ seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
 }
 
 Gaze Film::gaze_of(const render::Camera& camera) const {
-  constexpr double full_size = 12.0;  // [px/m] from which on the marks of landmarks have theirs ...
+  constexpr double full_size = 12.0;  // [px/m] landmark marks have full size above this scale ...
   constexpr double smallest =
-      0.4;  // [-] ... and how small they become so that those of a whole map do not hide it
+      0.4;  // [-] ... and at least this share of it below, so that the marks of a whole map do not cover the
+            // map
   constexpr double dot = 2.6;      // [px] radius
-  constexpr double nearest = 3.0;  // [-] times as large as at the target things may be, near the camera
+  constexpr double nearest = 3.0;  // [-] things near the camera may look this much larger than at the target
   const Frame& view = layout_.views.front();
   const Frustum frustum(camera, view.width / view.height);
   const bool is_whole = plan_.world.film.camera == worlds::FilmCamera::overview ||

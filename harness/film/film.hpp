@@ -1,4 +1,4 @@
-// The film of a run: follows it as it goes and draws its frames.
+// Films a run: follows the run's events and draws the frames.
 #pragma once
 
 #include <cstdint>
@@ -27,47 +27,47 @@ namespace harness {
 /// What is filmed, and how.
 struct FilmPlan {
   worlds::World world;      // of the run; `world.film` says how
-  bool knows_world = true;  // false: the log came without a world file, and only `world.film` has a meaning
-  std::string name;         // of the world or log
+  bool knows_world = true;  // false: the log has no world file, and only `world.film` is used
+  std::string name;         // name of the world or log
   std::uint64_t seed = 0;
-  double start = 0.0;  // [s] of the run: charts are as wide as from here ...
-  double end = 0.0;    // [s] ... to here
+  double start = 0.0;  // [s] simulated time at which the charts begin
+  double end = 0.0;    // [s] simulated time at which the charts end
   FilmClock clock;
 };
 
-/// The estimators that a film shows: those that the world's film section names; otherwise seif and ekf;
-/// otherwise the first two.
+/// The estimators that a film of this world shows: those that the world file names for the film. If it names
+/// none: seif and ekf, filled up to two with others.
 std::vector<std::string> filmed_estimators(const worlds::World& world);
 
-/// From `from` to `to` [s] of simulated time after the run's start. Throws BadInput for times outside the
-/// run.
+/// The clock of a film from `from` to `to`, both [s] of simulated time after the run's start. Throws BadInput
+/// if there is nothing to film between them.
 FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
                      std::optional<double> to);
 
-/// Everything of a world that runs live.
+/// The plan for a film of a whole live run.
 FilmPlan film_plan(const worlds::World& world);
 
 class Film final : public RunListener {
  public:
-  /// Keeps a reference to `believers`, and to the landmarks of `log`. Throws std::runtime_error saying what
-  /// to install if something is missing, and BadInput for an estimator that is not there.
+  /// Keeps a reference to `believers` and to the landmarks of `log`. Throws std::runtime_error if something
+  /// is not installed, with a message that says what to install. Throws BadInput for an unknown estimator.
   Film(FilmPlan plan, const LogDescription& log, const Believers& believers, std::unique_ptr<FrameSink> sink);
 
-  /// `goes_on` is called after each frame; after it returns false no frame is drawn.
+  /// Calls `goes_on` after each frame. Once it returns false, no more frames are drawn.
   void after_each_frame(std::function<bool()> goes_on) { goes_on_ = std::move(goes_on); }
 
-  /// An error of the film does not end the run: finish() reports it.
+  /// An error of the film does not end the run; finish() reports it.
   void odometry(const OdometryEvent& event) override;
   void scan(const ScanEvent& event) override;
   void dead_reckoning(double t, const seif::Pose2& T_world_robot) override;
   void update(std::size_t estimator, const UpdateRecord& record) override;
 
-  /// Whether no further frame is wanted.
+  /// True if no further frame is wanted.
   bool is_over() const { return next_frame_ >= plan_.clock.frames() || !failure_.empty() || is_cut_; }
   std::int64_t frames_drawn() const { return next_frame_; }
 
-  /// The run is over: draws the frames that are left where it `has_ended` as planned, and completes the film.
-  /// Throws std::runtime_error if it could not be made.
+  /// Ends the film after the run. If the run `has_ended` as planned, the remaining frames are drawn first.
+  /// Throws std::runtime_error if the film could not be made.
   void finish(bool has_ended);
 
  private:
@@ -89,15 +89,15 @@ class Film final : public RunListener {
   Stage stage_;
   Sight sight_;
   CameraMan camera_man_;
-  std::vector<std::size_t> filmed_;  // the estimator of each view: its index in the run
+  std::vector<std::size_t> filmed_;  // for each view, the index of its estimator in the run
   std::vector<BeliefView> views_;
   Trail true_trail_;
   Trail odometry_trail_;
   double t_;                       // [s] of the last event
   std::optional<TruePose> truth_;  // at the last event
   std::optional<TruePose> now_;    // the truth at the present frame
-  FilmClock past_;                 // before the first frame
-  std::int64_t next_note_ = 0;     // of the past
+  FilmClock past_;                 // regular times before the first frame
+  std::int64_t next_note_ = 0;     // index of the next time in `past_`
   std::int64_t next_frame_ = 0;
   std::function<bool()> goes_on_;
   bool is_cut_ = false;

@@ -8,15 +8,16 @@ namespace harness {
 /// Frame i shows the time start + i speed / fps.
 struct FilmClock {
   double start = 0.0;  // [s] of the first frame
-  double end = 0.0;    // [s] no frame is later
-  double speed = 1.0;  // [-] simulated over film time
+  double end = 0.0;    // [s] no frame is later than this
+  double speed = 1.0;  // [-] simulated time over film time
   int fps = 30;        // [1/s]
 
   double time_of(std::int64_t frame) const { return start + static_cast<double>(frame) * speed / fps; }
   std::int64_t frames() const;  // [-] at least one
 };
 
-/// The slowest of 1, 2, 5, 10, 20, 50, ... at which `duration` [s] takes `longest` [s] at the most.
+/// The smallest speed of 1, 2, 5, 10, 20, 50, ... at which `duration` [s] of simulated time takes at most
+/// `longest` [s] of film time.
 double speed_for(double duration, double longest);
 
 }  // namespace harness

@@ -20,7 +20,7 @@ namespace harness {
 
 namespace {
 
-/// The times of one estimator's updates, as they were recorded.
+/// The recorded update times of one estimator.
 class RecordedTimes {
  public:
   explicit RecordedTimes(const std::filesystem::path& file) {
@@ -28,7 +28,7 @@ class RecordedTimes {
     if (std::filesystem::exists(file)) rows_.emplace(file, columns);
   }
 
-  /// That of the update at `t` [s], for times that come in order; NaN if there is none. [us]
+  /// The time of the update at `t` [s]; NaN if there is none. Calls must come in the order of `t`. [us]
   double at(double t) {
     while (rows_ && row_t_ < t) {
       if (!rows_->next()) {
@@ -45,8 +45,8 @@ class RecordedTimes {
   double row_t_ = -std::numeric_limits<double>::infinity();  // [s]
 };
 
-/// Hands on to the film what a replay tells, with the times of the run itself: a replay's own are of a
-/// machine that draws in between, and differ from one to the next.
+/// Passes a replay's records on to the film, with the update times of the recorded run. The replay's own
+/// times would include disturbances from drawing, and would differ at each replay.
 class WithRecordedTimes final : public RunListener {
  public:
   WithRecordedTimes(Film& film, const std::filesystem::path& log, const Believers& believers) : film_(film) {
@@ -68,7 +68,7 @@ class WithRecordedTimes final : public RunListener {
   std::vector<RecordedTimes> times_;
 };
 
-/// When the last odometry came. [s]
+/// The time of the last odometry row. [s]
 double end_of(const std::filesystem::path& log, double start) {
   CsvReader rows(
       log / "odometry.csv",
@@ -78,7 +78,7 @@ double end_of(const std::filesystem::path& log, double start) {
   return end;
 }
 
-/// A run has its world; of a log that came from elsewhere only settings are known.
+/// A run folder has its world file. A log from elsewhere has settings only.
 worlds::LoadResult load_settings(const std::filesystem::path& folder,
                                  const std::vector<std::string>& overrides, const seif::Registry& registry) {
   if (std::filesystem::exists(folder / "world.yaml"))

@@ -1,5 +1,5 @@
-// The film of a finished run, from its folder. Nothing is simulated again: truth and wheel angles are in the
-// log, the filters get the log once more, and the times of their updates are the recorded ones.
+// Films a finished run from its folder, without simulating it again. Truth and wheel angles are in the log.
+// The filters process the log once more; the update times are those of the recorded run.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@
 
 namespace harness {
 
-/// A folder that is ready to be filmed.
+/// A run folder that is ready to be filmed.
 struct FilmableFolder {
-  PreparedRun replay;  // of the estimators that are filmed
-  FilmPlan plan;       // but for the clock
+  PreparedRun replay;  // with the filmed estimators only
+  FilmPlan plan;       // complete but for the clock
 };
 
-/// Appends errors of the settings to `problems`; then there is nothing to film. `overrides` are
-/// of a world file's film section. Throws BadInput if the log cannot be read, or for an
-/// override of something else.
+/// Prepares the film of a run folder. Problems with the settings are appended to `problems`; the result is
+/// then empty. `overrides` change the film section of a world file. Throws BadInput if the log cannot be
+/// read, or if an override is for another section.
 std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,
                                            const std::vector<std::string>& overrides,
                                            const seif::Registry& registry,
@@ -35,7 +35,8 @@ struct FilmResult {
   bool interrupted = false;
 };
 
-/// Throws BadInput if the log cannot be read on, and std::runtime_error if the film cannot be made.
+/// Draws the film. Throws BadInput if the log cannot be read to its end, and std::runtime_error if the film
+/// cannot be made.
 FilmResult film_folder(FilmableFolder& folder, const std::filesystem::path& log,
                        std::unique_ptr<FrameSink> sink, bool quiet);
 

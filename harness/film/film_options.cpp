@@ -32,7 +32,7 @@ std::string size_override(const std::string& size) {
   return fmt::format("film.size_px=[{}, {}]", width, height);
 }
 
-/// In quotes: a name may look like a number.
+/// Names are quoted because a name may look like a number.
 std::string estimators_override(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", name);

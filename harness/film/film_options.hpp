@@ -1,4 +1,4 @@
-// What a command line says about films.
+// The film options of the command line.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@ class App;
 
 namespace harness {
 
-/// An empty value means that the option was not given.
+/// The options as given. An empty value was not given.
 struct FilmOptions {
-  std::string out;                      // a file
+  std::string out;                      // file name
   std::string camera;                   //
-  std::string size;                     // [px] as in 1920x1080
+  std::string size;                     // [px], for instance 1920x1080
   std::optional<int> fps;               // [1/s]
-  std::optional<double> speed;          // [-] simulated over film time
+  std::optional<double> speed;          // [-] simulated time over film time
   std::optional<double> from;           // [s] of simulated time
   std::optional<double> to;             // [s] of simulated time
-  std::optional<double> at;             // [s] of simulated time: a single picture
+  std::optional<double> at;             // [s] of simulated time: draws a single picture
   std::vector<std::string> estimators;  // names
   std::vector<std::string> show;        // layers, or "all"
-  std::vector<std::string> hide;        // the same, but show counts
+  std::vector<std::string> hide;        // layers; `show` has precedence
 };
 
-/// `options` must outlive the parsing.
+/// Adds the film options to a command. `options` must live until the command line is parsed.
 void add_film_options(CLI::App& command, FilmOptions& options);
 
-/// The options that are also keys of world files, as overrides `film.key=value`: the world's reader checks
-/// them. Throws BadInput for an invalid size.
+/// The options that world files have too, as overrides `film.key=value`; the reader of the world file checks
+/// them. Throws BadInput if the size is malformed.
 std::vector<std::string> film_overrides(const FilmOptions& options);
 
 }  // namespace harness

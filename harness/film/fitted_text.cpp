@@ -6,7 +6,7 @@ namespace harness {
 
 namespace {
 
-/// UTF-8: bytes of this kind go on with a character.
+/// UTF-8: such a byte continues a character.
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 void remove_last_character(std::string& text) {

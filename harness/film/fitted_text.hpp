@@ -1,4 +1,4 @@
-// Text cut to the available width.
+// Text that is cut to the available width.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// The text, cut with an ellipsis if it is wider than `room` [px].
+/// The text if it is at most `room` [px] wide; otherwise its beginning and an ellipsis.
 std::string fitted(std::string text, float size, render::Weight weight, float room);
 
 }  // namespace harness

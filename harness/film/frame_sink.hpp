@@ -1,4 +1,4 @@
-// Where the frames of a film go: a video, pictures, or one picture.
+// The destination of a film's frames: a video, a sequence of pictures, or a single picture.
 #pragma once
 
 #include <filesystem>
@@ -16,17 +16,17 @@ struct FrameFormat {
 
 class FrameSink {
  public:
-  /// An unfinished film stays as NAME.part; the part written so far can be played.
+  /// An unfinished film stays on disk as NAME.part and can be watched.
   virtual ~FrameSink() = default;
-  /// Throws std::runtime_error if it cannot be written.
+  /// Writes a frame. Throws std::runtime_error if this fails.
   virtual void write(const render::Image& frame) = 0;
-  /// Ends the film and waits until all of it is on disk. Throws as above.
+  /// Ends the film and waits until all of it is on disk. Throws std::runtime_error if this fails.
   virtual void finish() = 0;
 };
 
-/// By the name of the file: .mp4 (H.264), .webm (VP9), .gif, .png (frames numbered after the stem;
-/// `is_still`: this very file). Throws BadInput for any other, and std::runtime_error saying what to install
-/// if the encoder is missing.
+/// Makes the sink for a file by its extension: .mp4 (H.264), .webm (VP9), .gif, or .png. A .png gives one
+/// numbered file for each frame, or a single file if `is_still`. Throws BadInput for another extension, and
+/// std::runtime_error if the encoder is not installed, with a message that says what to install.
 std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, const FrameFormat& format,
                                            bool is_still);
 

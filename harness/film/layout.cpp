@@ -12,7 +12,7 @@ constexpr float panel_height = 156.0F;   // [px] of 720
 constexpr float matrix_width = 146.0F;   // [px] of 1280
 constexpr float legend_width = 330.0F;   // [px] of 1280
 
-/// Takes a part of this width from the left, or from the right, of what is left of the panel.
+/// Cuts a part of this width from the left (or the right) of the panel's free part.
 Frame take_left(Frame& rest, float width) {
   const Frame part{rest.x, rest.y, width, rest.height};
   rest.x += width;
@@ -25,7 +25,7 @@ Frame take_right(Frame& rest, float width) {
   return {rest.x + rest.width, rest.y, width, rest.height};
 }
 
-/// The charts share what matrices and legend leave.
+/// The charts share the room that matrices and legend leave.
 void divide_panel(Layout& layout, const worlds::FilmLayers& layers, int estimators) {
   Frame rest = *layout.panel;
   for (int i = 0; layers.matrix && i < estimators; ++i)

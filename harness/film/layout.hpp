@@ -1,4 +1,4 @@
-// How the parts of a frame share the image.
+// Divides the image among the parts of a frame.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 namespace harness {
 
 struct Layout {
-  float scale = 1.0F;  // [-] of lengths that are meant for an image of 1280 x 720
+  float scale = 1.0F;  // [-] factor for lengths, which are given for an image of 1280 x 720 px
   std::optional<Frame> caption;
-  std::vector<Frame> views;     // side by side, one for each estimator; one if there is none
-  std::optional<Frame> panel;   // below the views, and in it from left to right:
+  std::vector<Frame> views;     // side by side, one for each estimator; a single one without estimators
+  std::optional<Frame> panel;   // below the views; it holds, from left to right:
   std::vector<Frame> matrices;  // one for each estimator
   std::optional<Frame> times, pose_error, legend;
 };

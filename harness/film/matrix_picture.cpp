@@ -7,7 +7,7 @@ namespace harness {
 
 namespace {
 
-constexpr std::size_t most_cells = 128;  // [-] along an edge: about as many as there are pixels
+constexpr std::size_t most_cells = 128;  // [-] along an edge: about one for each pixel
 
 }  // namespace
 
@@ -29,7 +29,9 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
     blocks += couplings_.size() + 1;
     for (const seif::Coupling& coupling : couplings_) {
       const auto other = numbers_.find(coupling.other);
-      if (other == numbers_.end() && coupling.other != seif::no_landmark) continue;  // nothing has seen it
+      if (other == numbers_.end() && coupling.other != seif::no_landmark)
+        continue;  // the film has not seen
+                   // this landmark
       const std::size_t j = other == numbers_.end() ? 0 : other->second;
       line[cell(j)] = std::max(line[cell(j)], static_cast<float>(coupling.strength));
     }
@@ -37,8 +39,8 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
   fill_ = static_cast<double>(blocks) / (static_cast<double>(rows) * static_cast<double>(rows));
 }
 
-/// Strengths differ by orders of magnitude, and it matters which are zero: a block that is not is never
-/// white.
+/// Strengths differ by orders of magnitude, so the scale is a fourth root. A block that is not zero is never
+/// white, because it matters which blocks are zero.
 float MatrixPicture::darkness(float strength) {
   return strength > 0.0F ? 0.12F + 0.88F * std::sqrt(std::sqrt(strength)) : 0.0F;
 }

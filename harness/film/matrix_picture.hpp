@@ -1,4 +1,4 @@
-// A filter's matrix as a picture: dark cells are strong links between robot and landmarks.
+// A picture of the matrix that a filter keeps: a dark cell is a strong link between robot or landmarks.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@
 
 namespace harness {
 
-/// The robot first, then the landmarks in the order in which they joined the map. Where there are more of
-/// them than cells, a cell shows the strongest block in it.
+/// The rows are the robot and then the landmarks, in the order in which they joined the map. If there are
+/// more of them than cells, a cell shows its strongest block.
 class MatrixPicture {
  public:
-  /// Reads the whole matrix. `map` tells the order of the landmarks.
+  /// Reads the whole matrix. `map` gives the order of the landmarks.
   void read(const seif::Estimator& filter, const PointIndex& map);
 
-  /// Blocks that are not zero, of all that there are. [-]
+  /// Share of the blocks that are not zero. [-]
   double fill() const { return fill_; }
   seif::BeliefMatrix matrix() const { return matrix_; }
   bool empty() const { return cells_.empty(); }
 
   int size() const { return size_; }                          // [-] cells along an edge
   const std::vector<float>& cells() const { return cells_; }  // (size x size) strengths [-]
-  /// The darkness of a cell of this strength. [-] in [0, 1]
+  /// How dark a cell of this strength is, in [0, 1]. [-]
   static float darkness(float strength);
 
   render::Raster raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const;

@@ -12,7 +12,8 @@ namespace harness {
 
 namespace {
 
-/// What stands under the name is a whole picture at any time: the former one, or this.
+/// Writes to a temporary file and renames it: at any time the file is a complete picture, the old or the new
+/// one.
 void write_whole(const std::filesystem::path& file, const render::Image& image) {
   std::filesystem::path unfinished = file;
   unfinished += fmt::format(".{}.part", getpid());

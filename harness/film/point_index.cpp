@@ -44,7 +44,7 @@ void PointIndex::within(const Area& area, std::vector<seif::LandmarkId>& out) co
   const std::int32_t first_row = column(area.min.y());
   const std::int32_t last_row = column(area.max.y());
   const double cells = (double{1} + last_column - first_column) * (double{1} + last_row - first_row);
-  if (cells > static_cast<double>(cells_.size())) {  // cheaper to look at every point
+  if (cells > static_cast<double>(cells_.size())) {  // then a pass over all points is cheaper
     for (const Point& point : points_) {
       if ((point.position.array() >= area.min.array()).all() &&
           (point.position.array() <= area.max.array()).all())

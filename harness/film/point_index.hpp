@@ -1,4 +1,4 @@
-// Landmarks by position: finds those in a rectangle without visiting the others.
+// An index of landmarks by position. It finds those in a rectangle without a pass over all landmarks.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,18 +20,18 @@ struct Area {
 
 class PointIndex {
  public:
-  /// `cell` [m]: the edge of the squares that points are sorted into.
+  /// `cell` [m]: the edge of the grid's squares.
   explicit PointIndex(double cell) : cell_(cell) {}
 
-  /// A new point, or one that has moved.
+  /// Adds a point, or moves one.
   void put(seif::LandmarkId id, const Eigen::Vector2d& position);
 
   std::size_t size() const { return points_.size(); }
-  /// By number, in the order in which they came.
+  /// The id of the point with this number. Points are numbered in the order in which they were added.
   seif::LandmarkId id(std::size_t number) const { return points_[number].id; }
   std::optional<Eigen::Vector2d> position(seif::LandmarkId id) const;
 
-  /// The points in the area, and some near it; always in the same order. Replaces the content of `out`.
+  /// The points in the area, and some near it, always in the same order. Overwrites `out`.
   void within(const Area& area, std::vector<seif::LandmarkId>& out) const;
 
  private:

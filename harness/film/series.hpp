@@ -1,4 +1,4 @@
-// A quantity over time for a chart as wide as the run, in bounded memory.
+// A quantity over time, for a chart of a whole run, in bounded memory.
 #pragma once
 
 #include <optional>
@@ -6,23 +6,24 @@
 
 namespace harness {
 
-/// Equal intervals of time. Each keeps the median of its values, or of as many as it has memory for.
+/// Divides the time into equal intervals and gives the median of each. An interval keeps a bounded number of
+/// values.
 class Series {
  public:
-  /// From `start` to `end` [s], in `bins` intervals.
+  /// Covers the time from `start` to `end` [s] with `bins` intervals.
   Series(double start, double end, int bins);
 
-  /// Ignores values that are not finite.
+  /// Ignores a value that is not finite.
   void add(double t, double value);
 
   int bins() const { return static_cast<int>(values_.size()); }
   double start() const { return start_; }
   double end() const { return end_; }
-  double time_of(int bin) const;               // [s] its middle
-  std::optional<double> value(int bin) const;  // the median
+  double time_of(int bin) const;               // [s] middle of the interval
+  std::optional<double> value(int bin) const;  // median of the interval; empty: no values
   std::optional<double> last() const { return last_; }
-  std::optional<double> smallest() const;  // of the medians
-  std::optional<double> largest() const;   // of the medians
+  std::optional<double> smallest() const;  // smallest median
+  std::optional<double> largest() const;   // largest median
 
  private:
   double start_;

@@ -21,7 +21,7 @@ Sight::Sight(const worlds::World& world, bool knows_world, const seif::Pose2& T_
   simulator_ = sim::make_simulator(world);
 }
 
-/// A ray ends at the landmark itself where that is known, otherwise where it was measured to be.
+/// A ray ends at the true landmark if that is known, otherwise at the measured position.
 void Sight::scan(const ScanEvent& event, const seif::Pose2& T_world_robot, const Stage& stage) {
   const seif::Pose2 T_world_sensor = T_world_robot * T_robot_sensor_;
   rays_.clear();
@@ -38,7 +38,7 @@ void Sight::scan(const ScanEvent& event, const seif::Pose2& T_world_robot, const
   if (simulator_) find_hidden(T_world_sensor);
 }
 
-/// In range and in the field of view, but behind something.
+/// Finds the landmarks that are in range and in the field of view, but behind something.
 void Sight::find_hidden(const seif::Pose2& T_world_sensor) {
   const Vector2d p_world_sensor(T_world_sensor.x, T_world_sensor.y);
   const seif::Pose2 T_sensor_world = inverse(T_world_sensor);
@@ -69,7 +69,7 @@ void Sight::append_rays(const seif::Pose2& T_world_robot, double height, float s
 }
 
 void Sight::append_range(const seif::Pose2& T_world_robot, float scale, render::Things& things) const {
-  if (!simulator_) return;  // a log does not tell it
+  if (!simulator_) return;  // the range is not known from a log
   const seif::Pose2 T_world_sensor = T_world_robot * T_robot_sensor_;
   render::Ellipse sector;
   sector.centre = {T_world_sensor.x, T_world_sensor.y, 0.01};

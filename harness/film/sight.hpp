@@ -1,4 +1,4 @@
-// What the landmark sensor sees: its range and field of view, and the rays of the latest scan.
+// The landmark sensor in a film: its range and field of view, and the rays of the latest scan.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,14 @@ namespace harness {
 
 class Sight {
  public:
-  /// `knows_world`: the world is asked for lines of sight, to find hidden landmarks.
+  /// `knows_world`: also find the landmarks that something hides; their lines of sight are tested in the
+  /// world.
   Sight(const worlds::World& world, bool knows_world, const seif::Pose2& T_robot_sensor);
 
-  /// `T_world_robot`: the true pose, or the best that is known.
+  /// Takes in a scan. `T_world_robot` is the true pose, or the best known one.
   void scan(const ScanEvent& event, const seif::Pose2& T_world_robot, const Stage& stage);
 
-  /// Rays from the robot's present position to what the latest scan saw.
+  /// Appends rays from the robot's present position to what the latest scan found.
   void append_rays(const seif::Pose2& T_world_robot, double height, float scale,
                    render::Things& things) const;
   void append_range(const seif::Pose2& T_world_robot, float scale, render::Things& things) const;
@@ -35,8 +36,8 @@ class Sight {
   void find_hidden(const seif::Pose2& T_world_sensor);
 
   worlds::LandmarkSensor sensor_;
-  std::vector<worlds::Landmark> landmarks_;    // by id; none if the world is not known
-  std::unique_ptr<sim::Simulator> simulator_;  // likewise
+  std::vector<worlds::Landmark> landmarks_;    // sorted by id; empty if the world is not known
+  std::unique_ptr<sim::Simulator> simulator_;  // null if the world is not known
   seif::Pose2 T_robot_sensor_;
   std::vector<Ray> rays_;
   std::vector<seif::LandmarkId> seen_;  // reused

@@ -17,7 +17,7 @@ using Eigen::Translation3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double unknown_reach = 8.0;  // [m] of a log that does not tell the sensor's range
+constexpr double unknown_reach = 8.0;  // [m] if the log does not give the sensor's range
 constexpr double post_height = 0.7;    // [m]
 
 render::Solid upright_box(const worlds::Rectangle& rectangle, double height, Rgb colour) {
@@ -36,7 +36,7 @@ void extend(std::optional<Area>& area, const Vector2d& p) {
   area->max = area->max.cwiseMax(p);
 }
 
-/// A part of the robot, in its frame.
+/// A part of the robot, given in the robot's frame.
 render::Solid part(const Isometry3d& T_world_robot, const Isometry3d& T_robot_part, render::Shape shape,
                    const Vector3d& size, Rgb colour) {
   return {shape, T_world_robot * T_robot_part, size, paint(colour)};
@@ -64,7 +64,7 @@ Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription&
   }
   const Vector2d margin = Vector2d::Constant(0.5);
   subject_ = {subject->min - margin, subject->max + margin};
-  if ((subject_.max - subject_.min).maxCoeff() < reach_) {  // too little is known to look at that alone
+  if ((subject_.max - subject_.min).maxCoeff() < reach_) {  // too small an area for an overview
     const Vector2d middle = 0.5 * (subject_.min + subject_.max);
     subject_ = {middle - Vector2d::Constant(reach_), middle + Vector2d::Constant(reach_)};
   }
@@ -75,7 +75,7 @@ Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription&
 
 void Stage::add_solids(const worlds::World& world) {
   for (const worlds::FrictionPatch& patch : world.physics.patches) {
-    constexpr double thickness = 0.005;  // [m] enough to be seen, too little for a shadow
+    constexpr double thickness = 0.005;  // [m] visible, but too thin for a shadow
     const Vector2d middle = 0.5 * (patch.min + patch.max);
     solids_.push_back(
         upright_box({middle, Vector2d::UnitX(), 0.5 * (patch.max - patch.min)}, thickness, paints::ice));
@@ -85,7 +85,7 @@ void Stage::add_solids(const worlds::World& world) {
   for (const worlds::Wall& wall : world.walls) {
     for (const worlds::Segment& leg : worlds::legs(wall.points, wall.closed)) {
       worlds::Rectangle rectangle = worlds::rectangle(leg, wall.thickness);
-      rectangle.half.x() += 0.5 * wall.thickness;  // legs meet at their corners
+      rectangle.half.x() += 0.5 * wall.thickness;  // so that legs meet at their corners
       solids_.push_back(upright_box(rectangle, wall.height, paints::wall));
     }
   }
@@ -131,7 +131,7 @@ void Stage::append_robot(const TruePose& pose, render::Things& things) const {
                        Rgb colour) {
     things.solids.push_back(part(T_world_robot, T_robot_part, shape, size, colour));
   };
-  // The hull ends inside of the wheels, so that these can be seen.
+  // The hull is narrower than the track, so that the wheels are visible.
   const double length = footprint.max.x() - footprint.min.x();
   const double middle = 0.5 * (footprint.max.x() + footprint.min.x());
   const double hull = robot_.track - 1.3 * width;
@@ -141,7 +141,7 @@ void Stage::append_robot(const TruePose& pose, render::Things& things) const {
       {0.92 * length, 0.92 * hull, 0.1 * r}, palette::orange);
   add(Isometry3d(Translation3d(robot_.caster.offset, 0.0, robot_.caster.radius)), render::Shape::cylinder,
       Vector3d::Constant(2.0 * robot_.caster.radius), paints::tyre);
-  // What tells where it looks.
+  // A disc on top, near the front, shows which way the robot faces.
   add(Isometry3d(Translation3d(footprint.max.x() - 0.35 * r, 0.0, 2.1 * r)), render::Shape::cylinder,
       {0.7 * r, 0.7 * r, 0.5 * r}, paints::tyre);
   for (const double side : {1.0, -1.0}) {

@@ -1,4 +1,4 @@
-// The world of a film: ground, walls, landmarks as they are, and the robot.
+// The world in a film: ground, walls, true landmarks, and the robot.
 #pragma once
 
 #include <optional>
@@ -15,24 +15,24 @@ namespace harness {
 
 class Stage {
  public:
-  /// `knows_world`: the run came from this world file; otherwise only the robot's defaults are taken from it,
-  /// and what there is to see comes from the log.
+  /// `knows_world`: the run came from this world file. Otherwise only the default robot is taken from
+  /// `world`, and the rest comes from the log.
   Stage(const worlds::World& world, bool knows_world, const LogDescription& log);
 
-  /// What an overview must show. [m]
+  /// What an overview shows in full. [m]
   const Area& subject() const { return subject_; }
-  /// What is of interest about the robot. [m]
+  /// The radius of interest around the robot. [m]
   double reach() const { return reach_; }
   render::Ground ground(bool with_grid) const;
 
-  /// Walls, boxes and landmarks that a camera sees.
+  /// Appends the walls, boxes and landmarks that the camera sees.
   void append_surroundings(const Frustum& frustum, const Area& area, render::Things& things);
 
   void append_robot(const TruePose& pose, render::Things& things) const;
 
-  /// p_world_landmark, where it is known. [m]
+  /// The true position p_world_landmark; empty if it is not known. [m]
   std::optional<Eigen::Vector2d> true_position(seif::LandmarkId id) const { return posts_.position(id); }
-  /// How high rays are drawn. [m]
+  /// Height at which rays are drawn. [m]
   double sensor_height() const { return 2.2 * robot_.wheel_radius; }
 
  private:
@@ -44,7 +44,7 @@ class Stage {
   double reach_;                                          // [m]
   Area subject_;                                          // [m]
   std::vector<render::Solid> solids_;                     // walls and boxes
-  const std::vector<TrueLandmark>* landmarks_ = nullptr;  // by ascending id; null: not known
+  const std::vector<TrueLandmark>* landmarks_ = nullptr;  // sorted by id; null: not known
   PointIndex posts_{4.0};
   std::vector<seif::LandmarkId> in_area_;  // reused
 };

@@ -34,7 +34,7 @@ std::string figures_of(const BeliefView& belief) {
   return text;
 }
 
-/// The entries of a legend, in two columns.
+/// Places the entries of a legend in two columns.
 class Legend {
  public:
   Legend(const Frame& frame, float scale, Overlay& overlay)
@@ -65,7 +65,7 @@ class Legend {
  private:
   static constexpr int rows = 6;
 
-  /// Writes the words of the next entry; the middle of the left edge of its mark.
+  /// Writes the text of the next entry. Returns the middle of the left edge of its mark.
   Vector2f next(const std::string& words) {
     const int column = count_ / rows;
     const int row = count_ % rows;

@@ -1,4 +1,4 @@
-// The text over the views of a frame: caption, names, legend, matrix.
+// The text over the views of a frame, and the panel: caption, names, legend, matrices.
 #pragma once
 
 #include <string>
@@ -11,28 +11,28 @@
 namespace harness {
 
 struct Caption {
-  std::string name;         // of the world or log
+  std::string name;         // name of the world or log
   std::string description;  // one sentence, or empty
-  std::string facts;        // of the moment
+  std::string facts;        // about the moment, for instance the time
 };
 
 void append_caption(const Frame& frame, float scale, const Caption& caption,
                     std::vector<render::OverlayItem>& overlay);
 
-/// Name and figures of the estimator whose view this is.
+/// Appends the name and the figures of the view's estimator.
 void append_view_title(const Frame& frame, float scale, const BeliefView& belief,
                        std::vector<render::OverlayItem>& overlay);
 
-/// The matrix of an estimator.
+/// Appends the picture of an estimator's matrix.
 void append_matrix(const Frame& frame, float scale, const BeliefView& belief,
                    std::vector<render::OverlayItem>& overlay);
 
-/// The legend of the marks.
+/// Appends the legend, which explains the marks.
 void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
                    const std::vector<BeliefView>& beliefs, bool has_truth,
                    std::vector<render::OverlayItem>& overlay);
 
-/// White, with hairlines between the parts.
+/// Appends the panel's white background, with thin lines between the parts.
 void append_panel(const Layout& layout, std::vector<render::OverlayItem>& overlay);
 
 }  // namespace harness

@@ -4,7 +4,7 @@ namespace harness {
 
 namespace {
 
-constexpr std::size_t most_fine = 512;     // [-] points; half as many are always at hand
+constexpr std::size_t most_fine = 512;     // [-] points; at least half as many are kept
 constexpr std::size_t most_coarse = 1024;  // [-]
 
 }  // namespace
@@ -15,7 +15,7 @@ void Trail::add(const Eigen::Vector2d& point) {
   if (fine_.size() > most_fine) retire();
 }
 
-/// The older half of the fine points goes over to the coarse ones.
+/// Moves the older half of the fine points to the coarse ones.
 void Trail::retire() {
   const auto end = fine_.begin() + most_fine / 2;
   for (auto it = fine_.begin(); it != end; ++it) {

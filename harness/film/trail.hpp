@@ -1,4 +1,4 @@
-// A path so far, in bounded memory: all of it coarsely, the last part finely.
+// The path of a moving point, in bounded memory: the whole path coarsely, its last part finely.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,17 +7,17 @@
 
 namespace harness {
 
-/// Between the points of a trail. [m]
+/// Distance between the points of a trail. [m]
 inline constexpr double trail_spacing = 0.05;
 
 class Trail {
  public:
-  /// Ignores points nearer than `spacing` [m] to the one before.
+  /// A point is left out if it is nearer than `spacing` [m] to the one before.
   explicit Trail(double spacing) : spacing_(spacing), coarse_spacing_(spacing) {}
 
   void add(const Eigen::Vector2d& point);
 
-  /// Calls visit(from, to) for every leg, the oldest first; the last one leads to `head`.
+  /// Calls visit(from, to) for each leg, the oldest first. The last leg leads to `head`.
   template <class Visit>
   void for_each_leg(const Eigen::Vector2d& head, const Visit& visit) const {
     const Eigen::Vector2d* last = nullptr;

@@ -18,22 +18,23 @@ namespace harness {
 
 namespace {
 
-/// Converts to BT.709 and says so: players take untagged video of small size for BT.601, and show other
+/// Converts to BT.709 and tags the video as such: players take small untagged video for BT.601 and show wrong
 /// colours.
 constexpr std::string_view bt709 =
     "-vf scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+bitexact,format=yuv420p "
     "-colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
 
-// The number of threads is fixed, because the bytes depend on it.
+// The number of threads is fixed, because the bytes of the file depend on it.
 constexpr std::string_view h264 =
     "-c:v libx264 -preset veryfast -crf 20 -threads 2 -movflags +faststart -f mp4";
 constexpr std::string_view vp9 =
     "-c:v libvpx-vp9 -deadline realtime -cpu-used 8 -row-mt 1 -crf 30 -b:v 0 -threads 2 -f webm";
 
-/// A palette for each frame, so that nothing of the film is kept. No dithering: a pattern that changes from
-/// frame to frame makes plain areas flicker.
+/// Makes a palette for each frame, so that ffmpeg need not keep the film in memory. No dithering: its pattern
+/// changes from frame to frame, and plain areas flicker.
 std::string gif(int fps) {
-  constexpr int highest_rate = 50;  // [1/s] of a clock of 1/100 s; players slow down frames of a single tick
+  constexpr int highest_rate = 50;  // [1/s] GIF counts in 1/100 s, and players slow down frames of a single
+                                    // tick
   return fmt::format(
       "-filter_complex {}split[frames][same];[same]palettegen=stats_mode=single[palettes];"
       "[frames][palettes]paletteuse=new=1:dither=none -loop 0 -f gif",
@@ -45,8 +46,8 @@ std::string codec(VideoFormat video, int fps) {
   return fmt::format("{} {}", bt709, video == VideoFormat::mp4 ? h264 : vp9);
 }
 
-/// ffmpeg and its arguments, for frames that come as rows of bytes: red, green, blue. The same frames give
-/// the same bytes.
+/// The ffmpeg command with its arguments, for frames as rows of bytes (red, green, blue). The same frames
+/// give the same bytes.
 std::vector<std::string> command(const std::filesystem::path& file, VideoFormat video,
                                  const FrameFormat& format) {
   std::istringstream words(
@@ -55,7 +56,7 @@ std::vector<std::string> command(const std::filesystem::path& file, VideoFormat 
                   "-map_metadata -1",
                   format.width, format.height, format.fps, codec(video, format.fps)));
   std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
-  arguments.push_back("file:" + file.string());  // the prefix lets a name begin with a dash, or hold a colon
+  arguments.push_back("file:" + file.string());  // the prefix allows names with a leading dash or a colon
   return arguments;
 }
 
@@ -69,7 +70,7 @@ PipedProgram start(const std::vector<std::string>& arguments) try {
 
 constexpr std::array<std::string_view, 3> levels = {"[error] ", "[fatal] ", "[panic] "};
 
-/// ffmpeg's exit code does not tell that the end of a film could not be written; its words do.
+/// ffmpeg's exit code does not reveal that the end of a film could not be written; its messages do.
 bool tells_of_an_error(const std::string& complaint) {
   return std::ranges::any_of(
       levels, [&](std::string_view level) { return complaint.find(level) != std::string::npos; });
@@ -100,18 +101,18 @@ class VideoSink : public FrameSink {
   }
 
  private:
-  /// Nothing is written through a link that stands there.
+  /// Removes an old file first: nothing is written through a link that stands there.
   std::filesystem::path fresh() const {
     std::error_code ignored;
     std::filesystem::remove(unfinished(), ignored);
     return unfinished();
   }
 
-  /// Where the film is until it is whole.
+  /// The path of the film until it is complete.
   std::filesystem::path unfinished() const { return file_.string() + ".part"; }
 
   [[noreturn]] void fail() {
-    static_cast<void>(encoder_.finish());  // so that it has said all
+    static_cast<void>(encoder_.finish());  // wait until ffmpeg has written all its messages
     std::error_code ignored;
     std::filesystem::remove(unfinished(), ignored);
     std::string reason = without_levels(encoder_.complaint());

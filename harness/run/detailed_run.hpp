@@ -1,4 +1,5 @@
-// A run with all scores of `seifbed score`. Those that need a replay there are computed during the run.
+// Runs a world together with the details of `seifbed score`. What `seifbed score` rebuilds by a replay is
+// gathered during the run.
 #pragma once
 
 #include <optional>
@@ -11,13 +12,13 @@ namespace harness {
 
 struct DetailedRun {
   RunResult result;
-  std::optional<RunDetails> details = {};  // nothing of a run that ended before its time
+  std::optional<RunDetails> details = {};  // empty if the run ended early
 };
 
-/// As execute(); summary.json contains the details, too.
+/// Runs as execute() does; summary.json also has the details.
 DetailedRun execute_in_detail(PreparedRun& run);
 
-/// The summary, with the details where there are any.
+/// The summary, with the details if there are any.
 std::string to_json(const DetailedRun& run);
 
 }  // namespace harness

@@ -17,7 +17,7 @@ namespace harness {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // [-] of a scoring interval
+constexpr double rounding = 1e-9;  // [-] relative to a scoring interval
 
 bool is_finite(const seif::Pose2& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
@@ -40,7 +40,7 @@ void check_name(const std::string& name, std::span<const LiveEstimator> others) 
     throw BadInput(fmt::format("two estimators have the name '{}'", name));
 }
 
-/// Runs a step of an estimator. One that throws is taken out; the others go on.
+/// Runs a step of an estimator. If the step throws, the estimator is removed and the others continue.
 template <class Step>
 void guard(LiveEstimator& estimator, double t, const Step& step) {
   try {

@@ -1,4 +1,4 @@
-// The live loop: every event goes to every estimator in turn, and to the listeners of the run.
+// The live loop: gives every event to every estimator in turn, and to the listeners of the run.
 #pragma once
 
 #include <atomic>
@@ -26,31 +26,32 @@ namespace harness {
 struct LiveEstimator {
   std::string name;
   std::unique_ptr<seif::Estimator> filter;
-  double odometry_sd_factor = 1.0;     // [-] what it believes of the noise, over what the data says
-  double observation_sd_factor = 1.0;  // [-]
-  std::string failure;                 // why it was taken out of the run; empty: it runs
+  double odometry_sd_factor = 1.0;     // [-] odometry noise that the estimator assumes, relative to the
+                                       // data's
+  double observation_sd_factor = 1.0;  // [-] the same for observations
+  std::string failure;                 // why it was removed from the run; empty: it still runs
 };
 
-/// The name that the world has for a landmark of an estimator's map: its own, if the estimator is told the
-/// names.
+/// The world's id of a landmark in an estimator's map. If the estimator is told the ids, it is `landmark`
+/// itself.
 seif::LandmarkId true_id_of(const seif::Estimator& filter, const TrueNames& names, seif::LandmarkId landmark);
 
-/// Makes the estimators that a world asks for. Each draws from a stream of its own, (seed,
-/// "estimator/<name>"). Throws BadInput if a type is not registered, a name stands twice or is not fit for
-/// a file name, or an estimator needs names that the log's observations do not have.
+/// Makes the estimators that a world asks for. Each has a random stream of its own, (seed, "estimator/NAME").
+/// Throws BadInput if a type is not registered, if a name occurs twice or cannot be a file name, or if an
+/// estimator needs landmark ids that the log does not have.
 std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
                                            std::span<const worlds::EstimatorChoice> choices,
                                            const LogDescription& log, std::uint64_t seed);
 
-/// Everything that believes to know where the robot is.
+/// Everything that has a belief about the robot's pose.
 struct Believers {
   std::vector<LiveEstimator> estimators;
-  seif::Pose2 dead_reckoning;  // T_world_robot by odometry alone, from the same start as the estimators'
+  seif::Pose2 dead_reckoning;  // T_world_robot by odometry only, from the same start as the estimators
 };
 
-/// The pose of `pose_from`, odometry or an estimator's name, as it is when asked; empty for the truth. What
-/// it returns throws std::runtime_error if there is no such estimator by then, or it has failed, or its pose
-/// is not finite. `believers` must live as long.
+/// A function that gives the present pose by `pose_from`: odometry or the name of an estimator. Empty for the
+/// truth. The function throws std::runtime_error if the estimator does not exist, has failed, or has a pose
+/// that is not finite. `believers` must outlive the function.
 std::function<seif::Pose2()> steering_pose(const std::string& pose_from, const Believers& believers);
 
 /// What the loop has done so far.
@@ -61,26 +62,26 @@ struct LoopCounts {
   bool interrupted = false;
 };
 
-/// Runs estimators on a stream. An update of an estimator is timed from its first motion update since the
-/// last scan to the end of its measurement update; listeners and scoring are off that path.
+/// Runs estimators on a stream. The time of an update counts from the first motion update since the last scan
+/// to the end of the measurement update. The time of listeners and of scoring is not part of it.
 class LiveLoop {
  public:
-  /// Keeps references to all. `log` says where the truth about landmarks is.
+  /// Keeps references to all arguments. `log` holds the true landmarks.
   LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener*> listeners,
            const LogDescription& log, const worlds::Scoring& scoring);
 
-  /// Until the stream ends or `stop` is set; `progress` is called after each scan. May throw what the stream
-  /// throws: finish() is in order then too.
+  /// Runs until the stream ends or `stop` is set. Calls `progress` after each scan. Passes on what the stream
+  /// throws; call finish() in that case too.
   void run(const std::atomic<bool>& stop, const std::function<void(const LoopCounts&)>& progress);
 
-  /// Scores the consistency at the end and tells of the maps.
+  /// Scores the consistency at the end and reports the maps.
   void finish();
 
-  /// Scores the consistency now. At other times than the end, for those who do not want finish().
+  /// Scores the consistency now. For callers that do not want finish().
   void score_consistency();
 
   const LoopCounts& counts() const { return counts_; }
-  /// What was not given to the estimators.
+  /// What the estimators were not given.
   const Screening& screening() const { return screening_; }
 
  private:
@@ -106,12 +107,12 @@ class LiveLoop {
   std::int64_t intervals_scored_ = 0;          // [-] since the start
   std::optional<double> last_scoring_t_;       // [s]
   std::optional<seif::Pose2> last_true_pose_;  // at the last event
-  std::vector<UpdateTimes> times_;             // of each estimator since the last scan
-  std::vector<std::int64_t> blocks_touched_;   // [-] by each estimator until the last scan
-  std::vector<TrueNames> true_names_;          // of each estimator that gives names of its own
+  std::vector<UpdateTimes> times_;             // for each estimator, since the last scan
+  std::vector<std::int64_t> blocks_touched_;   // [-] for each estimator, up to the last scan
+  std::vector<TrueNames> true_names_;          // for each estimator that names landmarks by itself
   seif::Scan scaled_scan_;                     // reused from scan to scan
 
-  // The state of the measurement update that is running.
+  // State of the measurement update in progress.
   seif::StageDone stage_done_;
   UpdateTimes* running_ = nullptr;
   Clock::time_point stage_begin_;

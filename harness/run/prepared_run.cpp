@@ -17,7 +17,7 @@ namespace harness {
 
 namespace {
 
-/// The commands' own file name in the run folder, where world.yaml finds it again.
+/// The file name of recorded commands in the run folder; its world.yaml refers to it.
 constexpr const char* commands_file = "commands.csv";
 
 template <class SomeStream>

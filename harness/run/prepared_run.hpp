@@ -1,4 +1,4 @@
-// A run before its first event: a world or a log, with the estimators that it is to feed.
+// A run that is ready to start: a world or a log, and the estimators.
 #pragma once
 
 #include <filesystem>
@@ -12,32 +12,33 @@
 
 namespace harness {
 
-/// Whoever prepares a run fills in the plan's folder and whether it is quiet.
+/// The caller fills in the plan's folder and whether the run is quiet.
 struct PreparedRun {
-  std::unique_ptr<Believers> believers;  // in a place of its own: the stream may steer by them
+  std::unique_ptr<Believers> believers;  // on the heap: the stream may keep a reference, to steer by them
   std::unique_ptr<Stream> stream;
-  const LogDescription* log = nullptr;  // the stream's
+  const LogDescription* log = nullptr;  // the stream's own
   RunPlan plan;
 };
 
-/// These two throw BadInput if the log cannot be read or an estimator cannot be made.
+/// Both functions throw BadInput if the log cannot be read or an estimator cannot be made.
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry);
 
-/// Estimators, scoring and seed are the world's; the rest is recorded. Throws BadInput for a log whose
-/// observations do not name their landmark and an estimator that needs that, too.
+/// Estimators, scoring and seed come from `world`; the rest is recorded. Throws BadInput also if an estimator
+/// needs landmark ids and the log's observations have none.
 PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry);
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry);
 
 RunResult execute(PreparedRun& run, RunListener* follower = nullptr);
 
-/// Runs quietly in a folder of its own, which goes afterwards.
+/// Runs quietly in a temporary folder, which is then deleted.
 RunResult execute_in_passing(PreparedRun& run, RunListener* follower = nullptr);
 
-/// Writes world.yaml to the folder of a run, and beside it what it needs, so that it runs again from there.
+/// Writes world.yaml and the files that it needs to the run folder, so that the world can be run from there.
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved);
 
-/// Writes world.yaml to the folder of a replay, where the log has one; else replay.yaml.
+/// Writes the settings to the folder of a replay: as world.yaml if the log has a world.yaml, otherwise as
+/// replay.yaml.
 void write_replayed_world(const std::filesystem::path& folder, const std::filesystem::path& log,
                           const std::string& resolved);
 

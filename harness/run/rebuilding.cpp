@@ -21,13 +21,14 @@ std::optional<double> mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// What a filter did not expect of the k observations of a scan whose landmarks are in its map.
+/// The innovations of the k observations of a scan whose landmarks are in the map.
 struct Innovations {
   Eigen::VectorXd nu;  // (2k x 1)
   Eigen::MatrixXd S;   // (2k x 2k) H P H' + Q
 };
 
-/// Nothing if there are none, or the filter does not tell its covariance P of the pose and these landmarks.
+/// Empty if no observed landmark is in the map, or if the filter does not give the joint covariance P of pose
+/// and landmarks.
 std::optional<Innovations> innovations_of(const LiveEstimator& estimator, const seif::Scan& scan,
                                           const seif::Pose2& T_robot_sensor) {
   seif::LandmarkIds seen;
@@ -43,7 +44,7 @@ std::optional<Innovations> innovations_of(const LiveEstimator& estimator, const 
   Innovations innovations{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, 3 + size);
   const double factor = estimator.observation_sd_factor * estimator.observation_sd_factor;
-  std::size_t i = 0;  // of the known ones: they come in the order of the observations
+  std::size_t i = 0;  // index among the known landmarks, which are in the order of the observations
   for (const seif::Observation& observation : scan.observations) {
     if (i == known.size() || known[i].landmark != observation.landmark) continue;
     const seif::PredictedObservation predicted =

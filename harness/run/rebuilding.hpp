@@ -1,4 +1,4 @@
-// Rebuilds by a replay what the folder of a run does not hold: innovations and joint covariances.
+// Rebuilds, by a replay, what a run folder does not hold: innovations and joint covariances.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,11 @@
 
 namespace harness {
 
-/// Listens to a replay. Computes the NIS of the scan after each scoring time, before any filter gets that scan.
+/// Follows a replay. It takes the NIS of the first scan after each scoring time, before any filter processes
+/// that scan.
 class RebuiltConsistency final : public RunListener {
  public:
-  /// Keeps references. At most `sample` landmarks of a map are scored, evenly spread.
+  /// Keeps references. Scores at most `sample` landmarks of a map, spread evenly.
   RebuiltConsistency(const Believers& believers, const LogDescription& log, int sample);
 
   void odometry(const OdometryEvent& event) override { note_truth(event.truth); }
@@ -30,20 +31,20 @@ class RebuiltConsistency final : public RunListener {
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override;
   void scored() override { scan_is_due_ = true; }
 
-  /// One for each estimator.
+  /// One score for each estimator.
   std::vector<RebuiltScore> scores() const;
 
  private:
   struct Gathered {
-    std::vector<double> nis;     // [-] of each observation
-    std::vector<ScanNis> scans;  // of each scan
-    std::vector<double> means;   // [-] from the robot, of each scoring time
-    std::vector<double> last;    // [-] from the robot, of each landmark at the last one
+    std::vector<double> nis;     // [-] one for each observation
+    std::vector<ScanNis> scans;  // one for each scan
+    std::vector<double> means;   // [-] NEES from the robot, one for each scoring time
+    std::vector<double> last;    // [-] NEES from the robot, one for each landmark at the last scoring time
   };
 
   void note_truth(const std::optional<TruePose>& truth);
   void add_innovations(const LiveEstimator& estimator, const seif::Scan& scan, Gathered& gathered) const;
-  /// The sample of landmarks whose truth is known, beside it.
+  /// The sampled landmarks with a known true position, each with the pair of positions.
   std::vector<std::pair<seif::LandmarkId, PointPair>> sample_of(std::size_t index) const;
 
   const Believers& believers_;
@@ -52,11 +53,11 @@ class RebuiltConsistency final : public RunListener {
   bool scan_is_due_ = false;
   std::optional<seif::Pose2> true_pose_;    // at the last event
   std::vector<seif::LandmarkId> true_ids_;  // of the latest scan
-  std::vector<TrueNames> true_names_;       // by estimator
-  std::vector<Gathered> gathered_;          // by estimator
+  std::vector<TrueNames> true_names_;       // one for each estimator
+  std::vector<Gathered> gathered_;          // one for each estimator
 };
 
-/// Thrown if a replay does not give the recorded estimates.
+/// The replay differs from the recorded run.
 class NotReplayed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -64,16 +65,17 @@ class NotReplayed : public std::runtime_error {
 
 /// How to replay a run.
 struct Rebuilding {
-  std::filesystem::path run;                // the folder of the run
+  std::filesystem::path run;                // run folder
   std::filesystem::path to;                 // an empty folder
-  std::vector<std::string> estimators;      // by their names in the run, or types
-  std::optional<double> interval = {};      // [s] between scoring times; nothing: the run's
+  std::vector<std::string> estimators;      // names in the run, or types
+  std::optional<double> interval = {};      // [s] between scoring times; empty: as in the run
   std::vector<std::string> overrides = {};  // of the settings
-  bool is_other = false;                    // estimators that are not the run's: nothing recorded to come to
+  bool is_other = false;                    // estimators that the run did not have, so there is no record to
+                                            // compare with
 };
 
-/// Replays a run; `look` sees the estimators in their final state. Throws BadInput, NotReplayed, and
-/// std::runtime_error if it was interrupted.
+/// Replays a run. `look` sees the estimators when the replay has ended. Throws BadInput, NotReplayed if the
+/// replay differs from the record, and std::runtime_error if it was interrupted.
 std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& summary,
                                   const seif::Registry& registry,
                                   const std::function<void(const Believers&)>& look = {});

@@ -16,9 +16,9 @@ namespace harness {
 
 namespace {
 
-constexpr double never = 1e300;  // [s] but at the end
+constexpr double never = 1e300;  // [s] scores at the end only
 
-/// The optimum's poses in the place of those that its guide had on the way.
+/// Replaces the recorded poses of the guide by those of the optimum.
 void write_trajectory(const std::filesystem::path& folder, const std::string& name,
                       const seif::Estimator& filter) {
   const std::vector<seif::Pose2> poses = dynamic_cast<const Batch&>(filter).trajectory();

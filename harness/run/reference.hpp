@@ -1,4 +1,4 @@
-// References for a recorded run, as rows of its score table.
+// References for a recorded run. A reference is an additional row of the score table.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@
 namespace harness {
 
 struct ReferenceScore {
-  EstimatorScore score;  // under the name of the reference
+  EstimatorScore score;  // its name is that of the reference
   EstimatorDetails details;
   ReferenceEstimate estimate;
 };
 
-/// `batch`, the optimum; `robust_batch`, in which observations more than 3 sigma off get less weight; and
-/// `mrpt_ekf`, a peer.
+/// `batch` is the least-squares optimum. `robust_batch` is the same, but observations with residuals above 3
+/// sigma count less. `mrpt_ekf` is the filter of another project.
 inline constexpr std::array<std::string_view, 3> references = {"batch", "robust_batch", "mrpt_ekf"};
 bool is_optimum(std::string_view reference);
 
-/// Replays a run for a reference and scores it. An optimum is computed once, at the end, with a map, a belief
-/// and a trajectory of its own, and without costs. Throws BadInput if the run has an estimator of that name or
-/// the reference cannot be made, and std::runtime_error if no optimum is found.
+/// Replays a run for a reference and scores it. An optimum is solved for once, at the end; map, belief and
+/// trajectory are then the optimum's, and its costs are empty. Throws BadInput if the run has an estimator of
+/// that name or the reference cannot be made, and std::runtime_error if no optimum is found.
 ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
                                const Summary& summary, const DetailChoices& choices,
                                const seif::Registry& registry);

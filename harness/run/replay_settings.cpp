@@ -16,7 +16,7 @@ namespace harness {
 
 namespace {
 
-/// The document of the run that wrote the log.
+/// The settings of the log, or the defaults.
 std::optional<worlds::Node> read_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                           std::vector<worlds::Problem>& problems) {
   for (const char* file : {"world.yaml", "replay.yaml"}) {
@@ -35,8 +35,8 @@ void check_override(const std::string& assignment) {
       assignment));
 }
 
-/// Leaves the estimators that were asked for, in the order of the file; a registered type that is missing
-/// comes in with its defaults.
+/// Keeps the estimators that were asked for, in the order of the file. Adds a registered type that the file
+/// does not have, with its default options.
 void select_estimators(worlds::Node& document, const std::vector<std::string>& names,
                        const seif::Registry& registry, std::vector<worlds::Problem>& problems) {
   if (names.empty()) return;

@@ -1,4 +1,5 @@
-// What a replay takes from a world file: estimators, scoring, film and seed. The rest stands in the log.
+// The settings of a replay: estimators, scoring, film and seed, from a world file. The rest comes from the
+// log.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +12,21 @@
 
 namespace harness {
 
-/// The choices of a command line.
+/// The choices of the command line.
 struct ReplayChoices {
   std::vector<std::string> estimators;  // only these: names from world.yaml, or types; empty: all of the file
-  std::vector<std::string> overrides;   // path.to.key=value, of estimators, scoring, film and seed
-  std::string seed;                     // checked as part of the settings; empty: the file's
-  std::string defaults = {};            // settings of a log that comes without; empty: those of our own
+  std::vector<std::string> overrides;   // path.to.key=value, for estimators, scoring, film and seed
+  std::string seed;                     // checked together with the settings; empty: the file's seed
+  std::string defaults = {};            // settings for a log without a world.yaml or replay.yaml; empty: the
+                                        // defaults
 };
 
-/// From the world.yaml or the replay.yaml of the log; for a log without, as `choices` or, if they do not say,
-/// as the format tells. Throws BadInput for an unknown choice.
+/// Reads the settings from the log's world.yaml or replay.yaml. If the log has neither, it takes those of
+/// `choices`, and otherwise the defaults of the log format. Throws BadInput for an invalid choice.
 worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const ReplayChoices& choices,
                                         const seif::Registry& registry);
 
-/// The resolved settings that concern a replay, for a replay.yaml.
+/// The part of resolved settings that a replay needs, as the text of a replay.yaml.
 std::string settings_of_replay(const std::string& resolved);
 
 }  // namespace harness

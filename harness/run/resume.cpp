@@ -22,11 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder inside of the run, on the same disk, that goes with the object.
+/// A folder inside the run folder, so on the same disk. It is deleted with the object.
 class Workshop {
  public:
   explicit Workshop(fs::path folder) : folder_(std::move(folder)) {
-    fs::remove_all(folder_);  // of a resumption that was cut off itself
+    fs::remove_all(folder_);  // left by an earlier resumption that was cut off
     fs::create_directory(folder_);
   }
   ~Workshop() {
@@ -48,7 +48,7 @@ bool is_repeated(const fs::path& file) {
          file.extension() == ".tum";
 }
 
-/// What was recorded, but for a last line that was not ended, must be how the new record begins.
+/// The new files must begin with the recorded ones. A last line without an end is ignored.
 void check_repeats(const fs::path& run, const fs::path& again) {
   for (const fs::directory_entry& entry : fs::directory_iterator(run)) {
     if (!is_repeated(entry.path())) continue;
@@ -63,7 +63,7 @@ void check_repeats(const fs::path& run, const fs::path& again) {
   }
 }
 
-/// The summary comes last: with it the run is whole.
+/// Moves the new files into the run folder. summary.json comes last: it marks the run as complete.
 void take_place(const fs::path& again, const fs::path& run) {
   write_whole_file(run / unfinished_mark, "");
   std::vector<fs::path> names;

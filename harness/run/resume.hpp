@@ -8,13 +8,13 @@
 
 namespace harness {
 
-/// Whether a run is incomplete. Throws BadInput if this is not the folder of a run.
+/// True if a part of the run is missing. Throws BadInput if `run` is not a run folder.
 bool is_incomplete(const std::filesystem::path& run);
 
-/// Simulates such a run again from its world.yaml, in another folder, and replaces the incomplete run: the same
-/// bytes as an undisturbed run, except for times. The recorded part must come again to the bit; otherwise throws
-/// std::runtime_error. If that happens, or this is interrupted, the folder stays unchanged. Throws
-/// BadInput for a world that cannot be read.
+/// Simulates the run again from its world.yaml and then replaces the folder's files. The result has the same
+/// bytes as an uninterrupted run, except for times. The new run must repeat the record to the bit, otherwise
+/// this throws std::runtime_error. The folder is unchanged if this throws, is interrupted or fails. Throws
+/// BadInput if the world cannot be read.
 RunResult resume(const std::filesystem::path& run, const seif::Registry& registry, bool quiet);
 
 }  // namespace harness

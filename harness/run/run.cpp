@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const Believers& believers) {
   return names;
 }
 
-/// Whether something was left out, and so has now been told.
+/// Prints a message once something was left out. True if it did.
 bool tell_of(const Screening& screening) {
   if (!screening.first_t()) return false;
   fmt::print(stderr, "at {} s: a measurement that is none was left out ({}); more of the kind are counted\n",
@@ -35,7 +35,7 @@ bool tell_of(const Screening& screening) {
   return true;
 }
 
-/// Runs the loop; what goes wrong on the way is told in the result, so that what there is can be scored.
+/// Runs the loop. An error is stored in the result, so that the run up to then can be scored.
 void run_loop(LiveLoop& loop, const LogDescription& log, const RunPlan& plan, RunResult& result) {
   const InterruptGuard guard;
   Progress progress(plan.quiet, log.start_t, plan.end_t);
@@ -46,7 +46,7 @@ void run_loop(LiveLoop& loop, const LogDescription& log, const RunPlan& plan, Ru
       if (!is_told) is_told = tell_of(loop.screening());
     });
   } catch (const std::system_error&) {
-    throw;  // the recorder's: nothing more can be written
+    throw;  // from the recorder: nothing more can be written
   } catch (const BadInput& error) {
     result.error = error.what();
     result.bad_input = true;

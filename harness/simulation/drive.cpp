@@ -14,16 +14,16 @@ namespace {
 constexpr double share_of_limits = 0.8;  // [-] of the robot's limits; the rest is for corrections
 
 // Exploration.
-constexpr int draws = 8;                // [-] goals tried at one moment, so that a step's work is bounded
+constexpr int draws = 8;                // [-] goals tried in one step, so that its work is bounded
 constexpr double nearest_goal = 1.5;    // [m]
 constexpr double farthest_goal = 10.0;  // [m]
 constexpr double forward_sd =
-    0.8;  // [rad] goals lie ahead as a rule, or the robot would wander about one place
-constexpr double patience = 2.0;       // [-] times what the way should take
+    0.8;  // [rad] most goals lie ahead; otherwise the robot would wander about one place
+constexpr double patience = 2.0;       // [-] times the expected duration of the way
 constexpr double more_patience = 5.0;  // [s]
 constexpr double share_on_the_way =
-    0.7;  // [-] of the clearance: a path that was clear stays clear when it is cut short
-constexpr double shrinking = 0.97;      // [-] of the clearance for each moment without a goal
+    0.7;  // [-] of the clearance: small deviations from a clear path do not make the robot give up
+constexpr double shrinking = 0.97;      // [-] factor for the clearance after each step without a goal
 constexpr double smallest_share = 0.2;  // [-] of the clearance
 
 FollowerLimits limits(const worlds::Drive& drive, const worlds::Robot& robot) {
@@ -45,7 +45,7 @@ Drive::Drive(const worlds::Drive& drive, const worlds::Robot& robot, std::mt1993
       clearance_(drive.clearance) {
   if (drive_.path.empty()) return;
   std::vector<Eigen::Vector2d> path = drive_.path;
-  // The way to the beginning of an open path is part of it.
+  // The way from the start to an open path is part of the path.
   if (!drive_.closed) path.insert(path.begin(), robot.start.position);
   follower_.follow(path, drive_.closed, robot.start.position);
 }

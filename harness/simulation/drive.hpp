@@ -1,4 +1,4 @@
-// Commands for the robot, from its believed pose: along a path, by exploration, or recorded ones.
+// Commands the robot by the pose that it believes: along a path, by exploration, or with recorded commands.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 
 namespace harness {
 
-/// Whether the robot could drive straight from its true position to p_robot_goal, `clearance` [m] away from
-/// anything solid. The goal is in the robot's frame, because the robot sees what is around it.
+/// True if the robot can drive straight from its true position to p_robot_goal, at least `clearance` [m] away
+/// from obstacles. The goal is in the robot's frame, because the robot itself sees these obstacles.
 using PathIsClear = std::function<bool(const Eigen::Vector2d& p_robot_goal, double clearance)>;
 
 /// Depends only on the given poses, its random engine and its own state.
@@ -22,7 +22,7 @@ class Drive {
   Drive(const worlds::Drive& drive, const worlds::Robot& robot, std::mt19937_64 random,
         PathIsClear path_is_clear);
 
-  /// The velocity at time t [s] for a robot that is believed to be there. Times must not decrease.
+  /// The command at time t [s] for a robot that believes to be at T_world_robot. Times must not decrease.
   sim::Command command(double t, const seif::Pose2& T_world_robot);
 
  private:
@@ -32,15 +32,15 @@ class Drive {
   bool draw_goal(double t, const seif::Pose2& T_world_robot);
 
   worlds::Drive drive_;
-  double turn_rate_;  // [rad/s] that is driven at most
+  double turn_rate_;  // [rad/s] highest turn rate driven
   PathFollower follower_;
   std::size_t next_command_ = 0;
 
   // Exploration.
   std::mt19937_64 random_;
   PathIsClear path_is_clear_;
-  double clearance_;        // [m] of the way to the goal; shrinks while the robot is boxed in
-  double give_up_t_ = 0.0;  // [s] when the goal is given up
+  double clearance_;        // [m] required along the way to the goal; it shrinks while no goal is found
+  double give_up_t_ = 0.0;  // [s] time at which the goal is given up
 };
 
 }  // namespace harness

@@ -10,7 +10,7 @@ namespace {
 using worlds::Fault;
 using worlds::FaultKind;
 
-// Times of the run are whole physics steps; a time in a file is what is nearest to its decimals.
+// Simulated times are whole physics steps. A time in a file is rounded to its decimals.
 constexpr double rounding = 1e-9;  // [s]
 
 bool has_come(const Fault& fault, double t) { return t >= fault.at - rounding; }

@@ -1,5 +1,6 @@
-// The faults of a world, each at its time, between the truth and the stream. They use no random numbers and change
-// none, so until its first fault a run is the same as without faults.
+// Injects the faults of a world between the truth and the stream, each at its time. Faults use no random
+// numbers and do not change those of others. So a run is the same as one without faults until the first
+// fault.
 #pragma once
 
 #include <optional>
@@ -10,26 +11,26 @@
 
 namespace harness {
 
-/// The error of the encoders' angles.
+/// The error of the encoders on top of the true angles.
 struct WheelJumps {
   double left = 0.0;   // [rad]
   double right = 0.0;  // [rad]
 };
 
-/// Times are those of the run and must not decrease. [s]
+/// Times are simulated times and must not decrease. [s]
 class FaultInjection {
  public:
   explicit FaultInjection(const std::vector<worlds::Fault>& faults);
 
-  /// The pose that the robot is put to now, T_world_robot; each kidnapping is returned once.
+  /// The new true pose T_world_robot if the robot is moved away at `t`. Each kidnapping is returned once.
   std::optional<worlds::Placement> kidnapping(double t);
 
   bool is_silent(worlds::FaultySensor sensor, double t) const;
 
   WheelJumps encoder_jumps(double t) const;
 
-  /// Applies all faults that are due to the first observation of a scan. A fault waits for a scan that saw
-  /// something.
+  /// Spoils the first observation of a scan by all faults that are due. They wait for a scan that has
+  /// observations.
   void spoil(seif::Scan& scan);
 
  private:

@@ -8,14 +8,15 @@ namespace harness {
 
 namespace {
 
-constexpr double arrived = 0.05;           // [m] a place where the robot stops is reached
-constexpr double begin_turn = 1.2;         // [rad] a target further aside than this is turned to on the spot
-constexpr double end_turn = 0.15;          // [rad] until it is ahead
-constexpr double turn_gain = 2.0;          // [1/s] rate of a turn on the spot for each radian that is left
-constexpr double shortest_segment = 1e-3;  // [m] nearer points are one, which bounds the work of a step
-constexpr double slowest = 0.05;           // [m/s] creeping to a stop
+constexpr double arrived = 0.05;           // [m] a stopping place this near is reached
+constexpr double begin_turn = 1.2;         // [rad] a target further aside makes the robot turn on the spot
+constexpr double end_turn = 0.15;          // [rad] the turn ends when the target is this nearly ahead
+constexpr double turn_gain = 2.0;          // [1/s] turn rate for each radian that is left
+constexpr double shortest_segment = 1e-3;  // [m] nearer points are merged, so that the work of a step is
+                                           // bounded
+constexpr double slowest = 0.05;           // [m/s] lowest speed before a stop
 constexpr double turning_back =
-    -0.5;  // [-] cosine of 120 degrees: the robot stops at such a corner and turns
+    -0.5;  // [-] cosine of 120 degrees: at a sharper corner the robot stops and turns
 
 }  // namespace
 
@@ -52,8 +53,7 @@ bool PathFollower::go_to_next_segment(Place& place) const {
   return true;
 }
 
-/// Whether the robot must stop at the end of this segment: the path ends there, or goes back where it came
-/// from.
+/// True if the robot must stop at the end of this segment, because the path ends there or turns back sharply.
 bool PathFollower::turns_back_after(std::size_t segment) const {
   Place next{segment, 0.0};
   if (!go_to_next_segment(next)) return true;
@@ -78,7 +78,7 @@ PathFollower::Place PathFollower::nearest_in_all(const Eigen::Vector2d& p_world)
   return best;
 }
 
-/// Moves the robot's place forward to the nearest point of the path within the lookahead.
+/// Moves the place forward to the path's nearest point within the lookahead.
 void PathFollower::advance(const Eigen::Vector2d& p_world) {
   Place probe = place_;
   double smallest = (at(place_) - p_world).norm();
@@ -98,7 +98,7 @@ void PathFollower::advance(const Eigen::Vector2d& p_world) {
   }
 }
 
-/// The point of the path one lookahead ahead, but never beyond a place where the robot must stop.
+/// The target on the path: one lookahead ahead, but not beyond the next place where the robot must stop.
 Eigen::Vector2d PathFollower::target(const Eigen::Vector2d& p_world) {
   Place ahead = place_;
   double left = limits_.lookahead;
@@ -136,7 +136,7 @@ sim::Command PathFollower::steer_to(const Eigen::Vector2d& p_robot_target, doubl
   const double aside = std::atan2(p_robot_target.y(), p_robot_target.x());
   is_turning_ = std::abs(aside) > (is_turning_ ? end_turn : begin_turn);
   if (is_turning_) return {0.0, std::clamp(turn_gain * aside, -limits_.turn_rate, limits_.turn_rate)};
-  // The circle through the target that the heading is tangent to.
+  // The circle through the target that is tangent to the heading.
   const double curvature =
       2.0 * p_robot_target.y() / std::max(p_robot_target.squaredNorm(), arrived * arrived);
   const double braking = std::max(slowest, std::sqrt(2.0 * limits_.deceleration * to_stop));

@@ -11,22 +11,23 @@
 namespace harness {
 
 struct FollowerLimits {
-  double speed = 0.6;         // [m/s] cruising
+  double speed = 0.6;         // [m/s] cruising speed
   double lookahead = 0.6;     // [m]
-  double turn_rate = 1.0;     // [rad/s] never more than this
-  double deceleration = 0.5;  // [m/s^2] towards the end of the path
+  double turn_rate = 1.0;     // [rad/s] highest turn rate
+  double deceleration = 0.5;  // [m/s^2] before the end of the path
 };
 
-/// Follows a polyline from its beginning to its end, or round and round. Progress never goes back, so a path
-/// may cross itself, and a pose estimate may jump. No step costs more on a longer path.
+/// Follows a polyline once, or repeatedly if it is closed. Progress never goes back, so a path may cross
+/// itself and a pose estimate may jump. The work of a step does not grow with the path.
 class PathFollower {
  public:
   explicit PathFollower(const FollowerLimits& limits) : limits_(limits) {}
 
-  /// Starts on a path. A closed one is entered where it is nearest to `start`, an open one at its beginning.
+  /// Starts a new path. A closed path is entered at the point nearest to `start`, an open one at its
+  /// beginning.
   void follow(std::span<const Eigen::Vector2d> points, bool closed, const Eigen::Vector2d& start);
 
-  /// The command at this pose. At the end of an open path, and without a path, the robot stands still.
+  /// The command at this pose. It is to stand still at the end of an open path and without a path.
   sim::Command command(const seif::Pose2& T_world_robot);
 
   bool is_finished() const { return is_finished_; }
@@ -35,10 +36,10 @@ class PathFollower {
   const Eigen::Vector2d& end() const { return points_.back(); }
 
  private:
-  /// A place on the path: on the segment from points_[segment], so far from its beginning.
+  /// A place on the path, on the segment that begins at points_[segment].
   struct Place {
     std::size_t segment = 0;
-    double along = 0.0;  // [m]
+    double along = 0.0;  // [m] from the beginning of the segment
   };
 
   double length(std::size_t segment) const;
@@ -51,12 +52,12 @@ class PathFollower {
   sim::Command steer_to(const Eigen::Vector2d& p_robot_target, double to_stop);
 
   FollowerLimits limits_;
-  std::vector<Eigen::Vector2d> points_;  // [m] a closed path ends with its first point
+  std::vector<Eigen::Vector2d> points_;  // [m] a closed path repeats its first point at the end
   bool closed_ = false;
   bool is_finished_ = true;
-  bool is_turning_ = false;  // on the spot, until the target is ahead
-  double to_stop_ = 0.0;     // [m] from the robot to the place where it must stand still, if that is near
-  Place place_;              // how far the robot has come
+  bool is_turning_ = false;  // turning on the spot until the target is ahead
+  double to_stop_ = 0.0;     // [m] to the place where the robot must stop, if that is within the lookahead
+  Place place_;              // progress of the robot
 };
 
 }  // namespace harness

@@ -50,7 +50,7 @@ sensors::LandmarkSensor make_landmark_sensor(const worlds::World& world) {
   return {options, sensors::random_stream(world.seed, "landmark_sensor")};
 }
 
-/// Drawn from N(truth, P0), so that the filters' belief at the start is right.
+/// Drawn from N(truth, P0), so that the filters' initial belief is correct.
 seif::PoseEstimate draw_start(const worlds::World& world) {
   std::mt19937_64 random = sensors::random_stream(world.seed, "start_estimate");
   std::normal_distribution<double> normal;
@@ -71,7 +71,7 @@ std::int64_t checked_rate(const char* what, int rate, int step_rate) {
       fmt::format("the {} rate of {} Hz is not from 1 Hz to the physics' {} Hz", what, rate, step_rate));
 }
 
-/// A log keeps one triangle of a covariance. What the estimators get live must be what a replay gives them.
+/// A log stores one triangle of a covariance. Live estimators must get the same matrix as in a replay.
 template <class Matrix>
 void make_symmetric(Matrix& covariance) {
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
@@ -151,7 +151,7 @@ void SimulatedStream::steer() {
 
 bool SimulatedStream::next(Event& event) {
   while (true) {
-    // Both may be due at one step: odometry comes first.
+    // Both may be due at the same step. Odometry comes first.
     if (odometry_clock_.next_step() <= step_) {
       must_steer_ = true;
       ++odometry_clock_.ticks;

@@ -1,4 +1,4 @@
-// A simulated world as a stream: physics, drive and sensors, advanced from one measurement to the next.
+// A simulated world as a stream. It advances physics, drive and sensors from one measurement to the next.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,17 @@
 
 namespace harness {
 
-/// The pose that steers, T_world_robot, after everything that next() gave so far. Empty: the truth.
+/// Gives the pose T_world_robot that steers, up to date with all that next() has returned. Empty: the truth
+/// steers.
 using SteeringPose = std::function<seif::Pose2()>;
 
-/// Each source of random numbers has a stream of its own: "encoders", "encoder_systematic", "landmark_sensor",
+/// Each source of randomness has its own random stream: "encoders", "encoder_systematic", "landmark_sensor",
 /// "start_estimate", "drive".
 class SimulatedStream final : public Stream {
  public:
-  /// Throws std::invalid_argument if a rate is not from 1 Hz to the physics' step rate.
+  /// Throws std::invalid_argument if a rate is below 1 Hz or above the physics' step rate.
   SimulatedStream(const worlds::World& world, SteeringPose steering_pose);
-  /// Uses a given simulator of this world.
+  /// Uses an existing simulator of this world.
   SimulatedStream(const worlds::World& world, SteeringPose steering_pose,
                   std::unique_ptr<sim::Simulator> simulator);
   SimulatedStream(const SimulatedStream&) = delete;
@@ -35,15 +36,15 @@ class SimulatedStream final : public Stream {
 
   const LogDescription& description() const { return description_; }
 
-  /// Steers the robot at each odometry reading, with the belief after it.
+  /// The robot is steered at each odometry reading, by the pose that is believed after that reading.
   bool next(Event& event) override;
 
  private:
-  /// A periodic event, counted in physics steps, so that no rounding of time accumulates.
+  /// A periodic event, counted in whole physics steps: times are not accumulated.
   struct Clock {
     std::int64_t rate = 1;       // [Hz]
     std::int64_t step_rate = 1;  // [Hz]
-    std::int64_t ticks = 1;      // [-] the number of the next one; the first is one period after the start
+    std::int64_t ticks = 1;      // [-] number of the next event; the first is one period after the start
     std::int64_t next_step() const { return ticks * step_rate / rate; }
   };
 

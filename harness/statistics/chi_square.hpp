@@ -1,4 +1,4 @@
-// Chi-square bands of normalised errors, and the share of values inside.
+// Chi-square bands of normalised errors, and the share of values inside a band.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace harness {
 
-/// The band that holds 95 % of the NEES per degree of freedom of a consistent filter, with 2.5 % on either side:
-/// quantiles of the chi-square distribution with `degrees` degrees of freedom, divided by `degrees`. [-]
+/// The band of 95 % of a consistent filter's NEES per degree of freedom, with 2.5 % on either side: quantiles
+/// of the chi-square distribution with `degrees` degrees of freedom, divided by `degrees`. [-]
 ConfidenceInterval chi_square_band(int degrees);
 
-/// The share of the values that lie in a band; nothing without values. [-]
+/// The share of the values inside a band; empty if there are no values. [-]
 std::optional<double> share_inside(std::span<const double> values, const ConfidenceInterval& band);
 
 }  // namespace harness

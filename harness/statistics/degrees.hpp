@@ -1,4 +1,4 @@
-// Degrees, for people to read: everything else is in radians.
+// Degrees, for output only. Everything else is in radians.
 #pragma once
 
 #include <numbers>

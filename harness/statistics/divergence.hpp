@@ -1,4 +1,4 @@
-// Detects without the truth that a filter has diverged: a running test of its innovations.
+// Detects that a filter has diverged without the truth, by a running test of the filter's innovations.
 #pragma once
 
 #include <array>
@@ -8,22 +8,23 @@
 
 namespace harness {
 
-/// Follows the innovations of one estimator. Constant time and memory.
+/// Tests the innovations of one estimator, in constant time and memory.
 ///
-/// For a consistent filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of
-/// freedom as numbers were measured. The test fires if the sum over the last `window` scans that saw known
-/// landmarks is beyond highest_nis(), or if the filter's gate ignored more of their observations than it used.
+/// For a consistent filter, the sum of v' S^-1 v over scans has a chi-square distribution; its degrees of
+/// freedom are the number of measured values. The test looks at the last `window` scans that saw known
+/// landmarks. It fires if their sum is above highest_nis(), or if the filter's gate left out more of the
+/// known landmarks' observations than it let in.
 class InnovationTest {
  public:
   static constexpr std::size_t window = 10;  // [-] scans
 
-  /// One update: v' S^-1 v, its degrees of freedom, and how many observations the gate left out of this scan.
+  /// Adds one update: v' S^-1 v, its degrees of freedom, and the number of observations that the gate left
+  /// out of the scan.
   void add(double t, double innovation, int degrees, std::int64_t gated);
 
-  /// The time when the test first fired; nothing if it never did. [s]
+  /// The time at which the test first fired; empty if it never did. [s]
   std::optional<double> fired_t() const { return fired_t_; }
-  /// The largest NIS over a window so far, for each degree of freedom; nothing before the first whole window.
-  /// [-]
+  /// The largest NIS of a window so far, per degree of freedom; empty before the first full window. [-]
   std::optional<double> worst() const { return worst_; }
 
  private:
@@ -39,16 +40,17 @@ class InnovationTest {
   std::optional<double> worst_;
 };
 
-/// [-] The tolerated ratio of error to believed sigma: a filter may be overconfident by this factor, on ice or
-/// with wrong wheels, and still recover.
+/// [-] errors of so many believed sigma are tolerated: on ice or with wrong wheel sizes a filter may be
+/// overconfident for a while and recover.
 inline constexpr double tolerated_sigma = 4.0;
 
-/// The NIS per degree of freedom that a filter with the tolerated error exceeds once in a billion times: the
-/// chi-square quantile over `degrees`, by Wilson and Hilferty's approximation, in constant time. [-]
+/// The bound for a window's NIS per degree of freedom. A filter with errors of tolerated_sigma exceeds it
+/// once in a billion times. It is the chi-square quantile over `degrees`, by the approximation of Wilson and
+/// Hilferty, in constant time. [-]
 double highest_nis(int degrees);
 
-/// NEES of the pose per degree of freedom above which a filter has diverged: a consistent filter exceeds it once
-/// in a million times. [-]
+/// The bound for the pose's NEES per degree of freedom, above which a filter has diverged. A consistent
+/// filter exceeds it once in a million times. [-]
 double highest_nees_pose();
 
 }  // namespace harness

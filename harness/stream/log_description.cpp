@@ -20,7 +20,7 @@ void describe_pose(worlds::Fields& fields, seif::Pose2& pose, worlds::Need need)
   fields.number("theta_rad", pose.theta, worlds::any_number(), "heading, counter-clockwise", need);
 }
 
-/// The six numbers of a symmetric matrix of [x y theta], by name.
+/// Describes a symmetric (3 x 3) matrix of [x y theta] by six named numbers.
 void describe_covariance(worlds::Fields& fields, Eigen::Matrix3d& covariance) {
   using worlds::Need;
   const auto element = [&](const char* key, int row, int column, Need need) {
@@ -57,7 +57,7 @@ void describe(worlds::Fields& fields, LogDescription& log, std::string& associat
                 "error of a range for each metre");
   fields.number("bearing_sd_rad", log.noise.bearing_sd, worlds::more_than(0), "error of a bearing",
                 worlds::Need::required);
-  double max_range = 0.0;  // stays so if it is left out
+  double max_range = 0.0;  // stays 0 if the file does not give it
   fields.number("max_range_m", max_range, worlds::more_than(0),
                 "of the sensor: what is longer is no measurement", worlds::Need::optional);
   if (max_range > 0.0) log.max_range = max_range;

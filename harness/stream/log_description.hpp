@@ -1,4 +1,4 @@
-// The description of a log: log.yaml, and which of the optional files exist.
+// The description of a log: its log.yaml, and which optional files it has.
 #pragma once
 
 #include <filesystem>
@@ -11,43 +11,44 @@
 
 namespace harness {
 
-/// The noise of the landmark sensor. The parts of the range are added in quadrature.
+/// The noise of the landmark sensor. The two parts of the range noise are added in quadrature.
 struct SensorNoise {
   double range_sd = 0.0;        // [m]
   double range_sd_per_m = 0.0;  // [-]
   double bearing_sd = 0.0;      // [rad]
 };
 
-/// The covariance of an observation at this range. (2 x 2) of [range bearing]
+/// The covariance of an observation at this range, (2 x 2) of [range bearing].
 Eigen::Matrix2d covariance(const SensorNoise& noise, double range);
 
 struct LogDescription {
   std::string name;
   seif::Pose2 T_robot_sensor;
   SensorNoise noise;
-  std::optional<double> max_range;  // [m] of the landmark sensor, where it is known
-  double start_t = 0.0;             // [s] where the first odometry increment begins
-  seif::PoseEstimate start;         // T_world_robot then, as the robot believes
+  std::optional<double> max_range;  // [m] of the landmark sensor; empty: not known
+  double start_t = 0.0;             // [s] start of the first odometry increment
+  seif::PoseEstimate start;         // T_world_robot at start_t, as the robot believes
   bool known_association = true;
-  /// [s] Between true poses that are further apart there is no truth.
+  /// [s] between true poses that are further apart the truth is not known
   double longest_truth_gap = std::numeric_limits<double>::infinity();
 
   // What the log holds besides odometry and observations.
   bool has_truth = false;
-  bool has_wheel_angles = false;                       // in the truth
-  bool has_true_ids = false;                           // for observations whose landmark is withheld or false
-  std::optional<TruePose> true_start;                  // the truth at start_t
-  std::optional<std::vector<TrueLandmark>> landmarks;  // by ascending id
+  bool has_wheel_angles = false;                       // the truth has wheel angles
+  bool has_true_ids = false;                           // true ids of the observations, where the id is
+                                                       // withheld or the detection is false
+  std::optional<TruePose> true_start;                  // true pose at start_t
+  std::optional<std::vector<TrueLandmark>> landmarks;  // sorted by id
 };
 
-/// log.yaml as text.
+/// The description as the text of a log.yaml.
 std::string to_yaml(const LogDescription& description);
 
-/// Reads log.yaml. Throws BadInput with every problem in it, a line for each. Fields that come from
-/// other files of the log stay unchanged.
+/// Reads log.yaml into `description`; what other files give is left unchanged. Throws BadInput with every
+/// problem of the file, one on each line.
 void read_yaml(const std::filesystem::path& file, LogDescription& description);
 
-/// What the log.yaml says of that; without a file, infinity. Throws BadInput.
+/// Reads longest_truth_gap from a log.yaml; infinity if there is no file. Throws BadInput.
 double longest_truth_gap(const std::filesystem::path& file);
 
 }  // namespace harness

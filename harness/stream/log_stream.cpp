@@ -15,7 +15,7 @@ namespace harness {
 namespace {
 
 constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
-constexpr std::size_t largest_scan = 10'000;  // [-] observations; what is more is no scan but a broken clock
+constexpr std::size_t largest_scan = 10'000;  // [-] observations; a larger "scan" comes from a broken clock
 
 // Columns of observations.csv.
 constexpr int landmark_column = 1;
@@ -30,7 +30,7 @@ std::filesystem::path existing_folder(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// The time of a row; it must not go backwards.
+/// The time of a row. It must not go backwards.
 double read_time(const CsvReader& rows, double earliest, bool may_repeat) {
   const double t = rows.number(0);
   if (t < earliest || (t == earliest && !may_repeat))
@@ -38,7 +38,7 @@ double read_time(const CsvReader& rows, double earliest, bool may_repeat) {
   return t;
 }
 
-/// Upper triangles of symmetric matrices, row by row.
+/// Covariances are stored as upper triangles, row by row.
 Eigen::Matrix3d read_covariance3(const CsvReader& rows, int column) {
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i) {
@@ -170,12 +170,12 @@ bool LogStream::next(Event& event) {
 }
 
 std::optional<TruePose> LogStream::truth_at(double t) {
-  // Odometry and a scan at one time share the truth.
+  // Odometry and a scan at the same time share the truth.
   if (truth_ && !(last_truth_ && last_truth_->t == t)) last_truth_ = truth_->at(t);
   return last_truth_;
 }
 
-/// Gathers all rows of one time.
+/// Gathers all rows with the same time into one scan.
 void LogStream::fill(ScanEvent& event) {
   event.scan.t = observation_t_;
   event.scan.observations.clear();

@@ -1,4 +1,5 @@
-// A recorded log as a stream: the same events, bit for bit, as when it was recorded. See docs/log_format.md.
+// A recorded log as a stream. It gives the same events, bit for bit, as the recorded run. See
+// docs/log_format.md.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +12,18 @@
 
 namespace harness {
 
-/// The truth of a log at any moment, for moments that come in order, as a TruthTrack of truth.csv.
+/// Gives the truth of a log at any time; calls must come in the order of time. It is a TruthTrack of
+/// truth.csv.
 class TruthReader {
  public:
-  /// Opens the log in this folder, with the longest gap that its log.yaml states.
+  /// Reads the truth of the log in this folder. The longest gap comes from its log.yaml.
   explicit TruthReader(const std::filesystem::path& folder);
 
   TruthReader(const std::filesystem::path& file, double longest_gap);
 
   bool has_wheel_angles() const { return rows_.has_optional(); }
 
-  /// Throws BadInput.
+  /// The truth at time `t` [s]; empty if it is not known. Throws BadInput.
   std::optional<TruePose> at(double t);
 
  private:
@@ -57,8 +59,8 @@ class LogStream final : public RecordedLog {
   std::optional<TruthReader> truth_;
   bool odometry_left_ = true;
   bool observation_left_ = true;
-  seif::Odometry odometry_;     // of the row that was read last
-  double observation_t_ = 0.0;  // [s] of the row that was read last
+  seif::Odometry odometry_;     // from the last row that was read
+  double observation_t_ = 0.0;  // [s] from the last row that was read
   std::optional<TruePose> last_truth_;
   ScanMemory memory_;
 };

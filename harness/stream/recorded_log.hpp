@@ -1,4 +1,4 @@
-// A recorded log of any format: a stream and its description.
+// A recorded log of any format: a stream with its description.
 #pragma once
 
 #include "harness/stream/log_description.hpp"

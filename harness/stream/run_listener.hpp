@@ -1,4 +1,5 @@
-// The listeners of a run, such as the recorder or a film, and the records that they get.
+// The interface of those who follow a run, such as the recorder and the film, and the records that they
+// receive.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,28 +14,38 @@
 
 namespace harness {
 
-inline constexpr int stage_count = 4;  // [-] of seif::Stage
+inline constexpr int stage_count = 4;  // [-] number of stages in seif::Stage
 
-/// What an update cost. [us]
+/// The time that an update took. [us]
 struct UpdateTimes {
-  double update = 0.0;                                         // all of it
-  std::array<std::optional<double>, stage_count> stages = {};  // those that the filter has
+  double update = 0.0;                                         // the whole update
+  std::array<std::optional<double>, stage_count> stages = {};  // the stages that the filter has
 };
 
-/// An estimator after an update: the motion since the last scan, and the scan.
+/// The state of an estimator after an update: the motion since the last scan, and the scan.
 struct UpdateRecord {
   double t = 0.0;                                 // [s]
   seif::Pose2 est_pose;                           // T_world_robot
-  std::optional<Eigen::Matrix3d> est_covariance;  // (3 x 3) of the pose, where the filter has it at hand
-  std::optional<seif::Pose2> true_pose;           // where it is known
-  seif::Counts counts;                            // the filter's own, after the update
-  std::int64_t blocks_touched = 0;                // [-] by this update alone
+  std::optional<Eigen::Matrix3d> est_covariance;  // (3 x 3) of the pose, if the filter has it at hand
+  std::optional<seif::Pose2> true_pose;           // empty: not known
+  std::int64_t blocks_touched = 0;                // [-] by this update
+  int active_landmarks = 0;                       // [-]
+  std::int64_t links = 0;                         // [-]
+  std::int64_t relocations = 0;                   // [-] so far
+  std::int64_t gated = 0;                         // [-] observations left out so far
+  std::int64_t weakened = 0;                      // [-] observations with reduced weight so far
+  std::optional<double> mean_residual;            // [-] as in seif::Counts
+  std::optional<double> anchoring;                // [nat] so far
+  std::optional<double> innovation;               // [-] v' S^-1 v of this scan, as in seif::Counts
+  int innovation_degrees = 0;                     // [-] degrees of freedom
   UpdateTimes times;
-  /// Estimator::associations() of an estimator that associates by itself. Valid during the call.
+  /// What Estimator::associations() gives, for an estimator that names landmarks by itself. Valid during the
+  /// call only.
   std::optional<std::span<const seif::LandmarkId>> associations;
 };
 
-/// How well an estimator's belief fits the truth, at a scoring time. NEES per degree of freedom: 1 is right.
+/// How well an estimator's belief fits the truth at a scoring time. The NEES are per degree of freedom: a
+/// consistent filter has 1.
 struct ConsistencyRecord {
   double t = 0.0;                       // [s]
   std::optional<double> nees_pose;      // [-]
@@ -44,15 +55,16 @@ struct ConsistencyRecord {
   std::int64_t memory_bytes = 0;        // [byte]
 };
 
-/// A landmark of a finished map.
+/// A landmark of the final map.
 struct MapRecord {
   seif::LandmarkId landmark = seif::no_landmark;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // p_world_landmark [m]
   std::optional<Eigen::Matrix2d> covariance;       // (2 x 2) [m^2]
 };
 
-/// Gets everything in the order in which it happens: odometry and scans before any estimator does, then each
-/// estimator's update with the scan; scores at the scoring times, and maps at the end.
+/// Receives every event in the order of time. It receives odometry and scans before the estimators process
+/// them, then each estimator's update. At scoring times and at the end it also receives the results found
+/// then.
 class RunListener {
  public:
   virtual ~RunListener() = default;
@@ -61,9 +73,9 @@ class RunListener {
   virtual void dead_reckoning(double /*t*/, const seif::Pose2& /*T_world_robot*/) {}
   virtual void update(std::size_t estimator, const UpdateRecord& record) = 0;
   virtual void consistency(std::size_t /*estimator*/, const ConsistencyRecord& /*record*/) {}
-  /// A scoring time is over.
+  /// All results of a scoring time have been told.
   virtual void scored() {}
-  /// The map of an estimator, once, at the end.
+  /// The final map of an estimator.
   virtual void map(std::size_t /*estimator*/, std::span<const MapRecord> /*landmarks*/) {}
 };
 

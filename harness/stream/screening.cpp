@@ -9,9 +9,9 @@ namespace harness {
 namespace {
 
 constexpr double longest_increment = 1e4;  // [m]
-constexpr double longest_range = 2e5;      // [m] for sensors that do not tell theirs
+constexpr double longest_range = 2e5;      // [m] if the log does not give the sensor's range
 
-// A measured range is beyond the sensor's by its noise alone, hardly ever by more than this.
+// Noise alone hardly ever lifts a measured range further above the sensor's range than this.
 constexpr double most_noise = 10.0;  // [sigma]
 
 constexpr std::array<std::string_view, rejection_count> names = {

@@ -1,5 +1,5 @@
-// Checks measurements before the estimators get them. Invalid ones are ignored, counted and reported. Only valid
-// ones are recorded, so a replay gets the same.
+// Checks every event before the estimators get it. Invalid measurements are left out, counted and reported.
+// Only what passed is recorded, so a replay gets the same events.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@
 
 namespace harness {
 
-/// Why a measurement is ignored.
+/// The reason for leaving something out.
 enum class Rejection {
   odometry_not_finite,
-  odometry_out_of_range,  // farther than any robot drives in one increment, or an invalid covariance
+  odometry_out_of_range,  // an impossible distance for one increment, or an invalid covariance
   observations_not_finite,
-  observations_out_of_range  // a range below zero or beyond the sensor's, or an invalid covariance
+  observations_out_of_range  // a range that is negative or above the sensor's, or an invalid covariance
 };
 inline constexpr std::size_t rejection_count = 4;  // [-]
 
@@ -29,11 +29,11 @@ class Screening {
  public:
   explicit Screening(const LogDescription& log);
 
-  /// Removes the invalid measurements of an event. False if nothing remains; an empty scan remains a scan.
+  /// Removes what is invalid from an event. False if nothing remains; a scan remains even if it is empty.
   bool admit(Event& event);
 
   std::int64_t count(Rejection why) const { return counts_.at(static_cast<std::size_t>(why)); }
-  /// The time of the first ignored measurement. [s]
+  /// The time at which something was first left out. [s]
   std::optional<double> first_t() const { return first_t_; }
 
   /// The counts that are not zero, with their names in the scores.

@@ -1,5 +1,5 @@
-// The stream of odometry and scans, from the simulator or from a recorded log. Every estimator gets it, and the
-// recorder writes it, in the order of time. At equal times odometry comes before a scan.
+// The stream of odometry and scans, from the simulator or from a recorded log, in the order of time. All
+// estimators get the same stream, and the recorder writes it. At equal times odometry comes before a scan.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace harness {
 
-/// The truth at one moment. For the recorder and the scorer alone.
+/// The truth at one time. Only the recorder and the scorer use it.
 struct TruePose {
   double t = 0.0;  // [s]
   seif::Pose2 T_world_robot;
@@ -21,7 +21,7 @@ struct TruePose {
   double right_wheel = 0.0;  // [rad] joint angle, unwrapped
 };
 
-/// A landmark as it really is.
+/// The true position of a landmark.
 struct TrueLandmark {
   seif::LandmarkId landmark = seif::no_landmark;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world_landmark [m]
@@ -30,14 +30,14 @@ struct TrueLandmark {
 
 struct OdometryEvent {
   seif::Odometry odometry;
-  std::optional<TruePose> truth;  // at the same t, where it is known
+  std::optional<TruePose> truth;  // at the same t; empty: not known
 };
 
 struct ScanEvent {
   seif::Scan scan;
   std::vector<seif::LandmarkId>
-      true_ids;  // one for each observation where they are known; no_landmark: a false detection
-  std::optional<TruePose> truth;  // at the same t, where it is known
+      true_ids;  // one for each observation if they are known; no_landmark: a false detection
+  std::optional<TruePose> truth;  // at the same t; empty: not known
 };
 
 using Event = std::variant<OdometryEvent, ScanEvent>;
@@ -46,14 +46,14 @@ using Event = std::variant<OdometryEvent, ScanEvent>;
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// The next event, written over `event`; false at the end. Throws on a log that cannot be read further.
+  /// Overwrites `event` with the next event; false at the end. Throws if a log cannot be read further.
   virtual bool next(Event& event) = 0;
-  /// What was ignored of a log so far, for streams that ignore something.
+  /// What was left out of a log so far; zero for streams that leave nothing out.
   virtual ReadCounts counts() const { return {}; }
 };
 
-/// For streams: turns an event from one kind into the other and keeps the memory of its scan meanwhile, so
-/// that a stream in its steady state does not allocate.
+/// A helper for streams. It switches an event between the two kinds and keeps the memory of its scan, so that
+/// a stream does not allocate in its steady state.
 class ScanMemory {
  public:
   OdometryEvent& odometry(Event& event) {

@@ -8,19 +8,19 @@
 
 namespace harness {
 
-/// Interpolates linearly between two rows; the heading turns the short way.
+/// Interpolates linearly between two rows. The heading turns the shorter way.
 TruePose interpolate(const TruePose& from, const TruePose& to, double t);
 
-/// The truth at any moment, for moments that come in order: the row at that time, or between two rows.
-/// Memory for two rows.
+/// Gives the truth at any time; calls must come in the order of time. The truth is that of a row, or is
+/// interpolated between two rows. Memory for two rows.
 class TruthTrack {
  public:
-  /// Between rows that are more than `longest_gap` [s] apart there is no truth.
+  /// Between rows that are more than `longest_gap` [s] apart the truth is not known.
   explicit TruthTrack(double longest_gap = std::numeric_limits<double>::infinity())
       : longest_gap_(longest_gap) {}
 
-  /// Nothing before the first row, after the last one, and in gaps. `next_row` gives the rows in the order of
-  /// time, and nothing when there are no more.
+  /// The truth at time `t` [s]; empty before the first row, after the last row, and in gaps. `next_row` gives
+  /// the rows in the order of time, and nothing when there are no more.
   template <class NextRow>
   std::optional<TruePose> at(double t, const NextRow& next_row) {
     while (!ended_ && (!after_ || after_->t < t)) {
@@ -41,7 +41,7 @@ class TruthTrack {
 
   double longest_gap_;
   std::optional<TruePose> before_;
-  std::optional<TruePose> after_;  // nothing: no row was read yet, or the rows have ended
+  std::optional<TruePose> after_;  // empty: no row was read yet, or the rows have ended
   bool ended_ = false;
 };
 
