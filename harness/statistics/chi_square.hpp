@@ -1,4 +1,4 @@
-// Chi-square bands of normalised errors, and how much lies inside.
+// Chi-square bands of normalised errors, and the share of values inside a band.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace harness {
 
-/// Where 95 % of the NEES per degree of freedom of a right filter lie, with 2.5 % on either side: quantiles
-/// of the chi-square distribution with `degrees` of freedom, over `degrees`. [-]
+/// The central 95 % band of the NEES per degree of freedom of a consistent filter: the 2.5 % and 97.5 %
+/// quantiles of the chi-square distribution with `degrees` degrees of freedom, divided by `degrees`. [-]
 ConfidenceInterval chi_square_band(int degrees);
 
-/// The share of the values that lie in a band; nothing without values. [-]
+/// The share of the values that lie in the band; empty if there are no values. [-]
 std::optional<double> share_inside(std::span<const double> values, const ConfidenceInterval& band);
 
 }  // namespace harness

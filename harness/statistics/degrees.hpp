@@ -1,4 +1,4 @@
-// Degrees, for people to read: everything else is in radians.
+// Degrees, for output that people read. All other angles are in radians.
 #pragma once
 
 #include <numbers>

@@ -6,14 +6,14 @@
 namespace harness {
 
 double highest_nis(int degrees) {
-  constexpr double z = 5.998;  // of the standard normal, at 1e-9
+  constexpr double z = 5.998;  // quantile of the standard normal distribution at 1 - 1e-9
   const double c = 2.0 / (9.0 * degrees);
   const double root = 1.0 - c + z * std::sqrt(c);
   return tolerated_sigma * tolerated_sigma * root * root * root;
 }
 
 double highest_nees_pose() {
-  constexpr double chi_square_3 = 30.66;  // at 1e-6
+  constexpr double chi_square_3 = 30.66;  // chi-square quantile, 3 degrees of freedom, at 1 - 1e-6
   return chi_square_3 / 3.0;
 }
 

@@ -1,5 +1,4 @@
-// When a filter has diverged, by what it can know itself: a running test of its innovations, without the
-// truth.
+// Detects that a filter has diverged with a running test of its innovations. The test needs no truth.
 #pragma once
 
 #include <array>
@@ -10,22 +9,16 @@
 namespace harness {
 
 /// Follows the innovations of one estimator. Constant time and memory.
-///
-/// Of a right filter, v' S^-1 v summed over scans has a chi-square distribution with as many degrees of
-/// freedom as numbers were measured. The test fires where the sum over the last `window` scans that saw known
-/// landmarks is beyond highest_nis(); or where the filter's gate has left out more of what was known than it
-/// let in.
 class InnovationTest {
  public:
-  static constexpr std::size_t window = 10;  // [-] scans
+  static constexpr std::size_t window = 10;  // [scans]
 
-  /// One update: v' S^-1 v, its degrees of freedom, and how many observations the gate left out of this scan.
+  /// One update: v' S^-1 v, its degrees of freedom, and how many observations of this scan the gate rejected.
   void add(double t, double innovation, int degrees, std::int64_t gated);
 
-  /// When it first fired; nothing if it never did. [s]
+  /// The time at which the test first fired; empty if it never fired. [s]
   std::optional<double> fired_t() const { return fired_t_; }
-  /// The largest NIS over a window so far, for each degree of freedom; nothing before the first whole window.
-  /// [-]
+  /// The largest NIS per degree of freedom over a window so far; empty before the first whole window. [-]
   std::optional<double> worst() const { return worst_; }
 
  private:
@@ -41,17 +34,17 @@ class InnovationTest {
   std::optional<double> worst_;
 };
 
-/// [-] sigma that are believed to be one: so many a filter may be too sure of itself, on ice or with wrong
-/// wheels, and find its way back.
+/// [-] The test tolerates errors with up to this many times the standard deviation that the filter states. A
+/// filter may be this overconfident on ice or with wrong wheel parameters, and still recover.
 inline constexpr double tolerated_sigma = 4.0;
 
-/// The NIS for each degree of freedom that a filter which is as wrong as is tolerated exceeds once in a
-/// billion times: the chi-square quantile over `degrees`, by Wilson and Hilferty's approximation, in constant
-/// time. [-]
+/// The limit of the NIS per degree of freedom. A filter that is exactly as overconfident as tolerated exceeds
+/// this limit with probability 1e-9. Computed as the chi-square quantile divided by `degrees`, with the
+/// approximation of Wilson and Hilferty, in constant time. [-]
 double highest_nis(int degrees);
 
-/// NEES of the pose for each degree of freedom beyond which a filter has diverged: once in a million times of
-/// a right one. [-]
+/// A filter has diverged if the NEES of its pose per degree of freedom exceeds this limit. A consistent
+/// filter exceeds the limit with probability 1e-6. [-]
 double highest_nees_pose();
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Means over runs, and how far they can be trusted. Definitions: docs/scores.md.
+// Means over runs, and their confidence intervals. Definitions: docs/scores.md.
 #pragma once
 
 #include <optional>
@@ -12,27 +12,27 @@ struct ConfidenceInterval {
   double high = 0.0;
 };
 
-/// A value from a sample, with its 95 % confidence interval where the sample gives one.
+/// A value from a sample, with its 95 % confidence interval if the sample gives one.
 struct Estimate {
   double value = 0.0;
   std::optional<ConfidenceInterval> interval;
 };
 
-/// The mean, with Student's interval; without one for a single value. Nothing for none.
+/// The mean, with Student's interval. A single value gives no interval; an empty sample gives no mean.
 std::optional<Estimate> mean_of(std::span<const double> sample);
 
-/// The ratio of the means of two paired samples, with Fieller's interval (1954), which takes the pairs'
-/// correlation into account. Without interval for a single pair, or where the mean of the denominators is not
-/// significantly above zero: the interval is unbounded then. Nothing without pairs, or if that mean is zero.
-/// The spans are of equal length.
+/// The ratio of the means of two paired samples, with Fieller's interval (1954), which accounts for the
+/// correlation of the pairs. The interval is missing for a single pair. It is also missing if the mean of the
+/// denominators is not significantly above zero, because the interval is unbounded then. Empty if there are
+/// no pairs or if that mean is zero. The spans have equal lengths.
 std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
                                        std::span<const double> denominators);
 
-/// The slope of the least-squares line through the points (x, y), with Student's interval; without one for
-/// two points. Nothing for fewer, or if all x are equal. The spans are of equal length.
+/// The slope of the least-squares line through the points (x, y), with Student's interval. Two points give no
+/// interval. Empty for fewer points, or if all x are equal. The spans have equal lengths.
 std::optional<Estimate> slope_of(std::span<const double> x, std::span<const double> y);
 
-/// The middle value, or the mean of the two in the middle. Nothing without values.
+/// The middle value, or the mean of the two middle values. Empty if there are no values.
 std::optional<double> median_of(std::vector<double> sample);
 
 }  // namespace harness
