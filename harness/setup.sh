@@ -36,6 +36,8 @@ test_packages=(
   "munge                 lets the parts of Slurm trust each other"
   "slurm-wlm             runs sweeps on a cluster"
   "chromium-headless-shell opens reports as people see them"
+  "clang-format          checks the format"
+  "doxygen               checks the API pages"
 )
 
 # Other people's filters to measure ours against; with SEIFBED_PEERS=1 they are installed, and where they are they are

@@ -1,5 +1,5 @@
-// An array that grows without ever moving what it holds: adding an element costs the same at any size,
-// where a std::vector now and then copies everything.
+// An array that grows without moving its elements. Adding an element costs the same at any size; a std::vector
+// copies all elements now and then.
 #pragma once
 
 #include <cassert>

@@ -9,9 +9,9 @@ namespace {
 
 using std::max, std::min;
 
-/// Appends M_ab, unless it is zero, as a coupling to `other`. `M_aa` and `M_bb` are the diagonal in its rows
-/// and in its columns. A matrix that is not positive definite may hold more than 1, or the root of a negative
-/// number: that counts as 1.
+/// Appends M_ab as a coupling to `other`, unless it is zero. `M_aa` and `M_bb` are the diagonal in its rows and
+/// in its columns. In a matrix that is not positive definite the ratio may exceed 1, or be the root of a
+/// negative number; then it counts as 1.
 template <class Block, class RowDiagonal, class ColumnDiagonal>
 void append(LandmarkId other, const Block& M_ab, const RowDiagonal& M_aa, const ColumnDiagonal& M_bb,
             std::vector<Coupling>& out) {
@@ -35,7 +35,7 @@ void append_links_of_robot(const InformationState& state, std::vector<Coupling>&
   }
 }
 
-/// Of the landmark at a position of the window, with all that is in the window.
+/// The couplings between the landmark at a position of the window and everything in the window.
 void append_links_in_window(const InformationState& state, int position, std::vector<Coupling>& out) {
   const auto Omega = state.Omega();
   const int row = InformationState::row_of(position);
@@ -43,7 +43,7 @@ void append_links_in_window(const InformationState& state, int position, std::ve
          out);
   for (int other = 0; other < state.active_count(); ++other) {
     if (other == position) continue;
-    // Below the diagonal: rounding may make the two triangles differ.
+    // The block below the diagonal, since rounding may make the two triangles differ.
     const int low = InformationState::row_of(max(position, other));
     const int high = InformationState::row_of(min(position, other));
     append(state.id(state.active(other)), Omega.block<2, 2>(low, high), Omega.diagonal().segment<2>(low),

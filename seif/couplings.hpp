@@ -1,5 +1,5 @@
-// What Estimator::couplings() tells, from the two ways in which our filters keep their matrix. Reads one row
-// of it, and changes and counts nothing.
+// Implements Estimator::couplings() for the two ways in which our filters store their matrix. Reads one row of
+// the matrix, and changes and counts nothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,12 @@
 
 namespace seif {
 
-/// Of the block-sparse matrix: no more work than the landmark has links, or the window blocks.
+/// From the block-sparse matrix. The work grows with the number of the landmark's links, or of the window's
+/// blocks.
 void couplings_of(const InformationState& state, LandmarkId of, std::vector<Coupling>& out);
 
-/// Of a dense matrix M of [x y theta m1x m1y ...] (3+2N x 3+2N), of which the lower triangle is read; `ids`
-/// by slot (N). O(N).
+/// From a dense matrix M of [x y theta m1x m1y ...] (3+2N x 3+2N). Only the lower triangle is read. `ids`: the
+/// landmarks by slot (N). O(N).
 void couplings_of(const Eigen::Ref<const Eigen::MatrixXd>& M, const LandmarkIndex& index,
                   std::span<const LandmarkId> ids, LandmarkId of, std::vector<Coupling>& out);
 

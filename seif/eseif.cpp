@@ -19,7 +19,7 @@ void Eseif::measurement_update(const Scan& scan, const StageDone& done) {
   done(Stage::measurement);
 
   if (!held_back_.empty()) {
-    solve(scan.t);  // the pose to linearise at
+    solve(scan.t);  // gives the pose at which to linearise
     if (!marginalise_robot(state_)) throw NumericalFailure("relocation", scan.t);
     seif::measurement_update(state_, held_back_, T_robot_sensor_);
     ++relocations_;
@@ -40,8 +40,9 @@ bool Eseif::overflows(const Scan& scan) const {
   return active > options_.theta_x;
 }
 
-/// Splits the scan into now_ and held_back_: landmarks that are in the map, spread over the bearings. Holds
-/// nothing back if fewer than two are: they would not tell where the robot is.
+/// Splits the scan into now_ and held_back_. The latter gets observations of landmarks that are in the map,
+/// spread over the bearings. It stays empty if the scan sees fewer than two of them: they would not determine
+/// the pose.
 void Eseif::hold_back(const Scan& scan) {
   known_.clear();
   for (const Observation& observation : scan.observations) {
@@ -54,7 +55,7 @@ void Eseif::hold_back(const Scan& scan) {
   std::ranges::sort(known_, {}, &Observation::bearing);
   const std::size_t count = std::min(known_.size(), static_cast<std::size_t>(options_.relocation_landmarks));
   for (std::size_t i = 0; i < count; ++i) held_back_.push_back(known_[i * known_.size() / count]);
-  for (const Observation& observation : held_back_) {  // the first of its landmark: others remain in now_
+  for (const Observation& observation : held_back_) {  // a landmark's further observations stay in now_
     now_.erase(std::ranges::find(now_, observation.landmark, &Observation::landmark));
   }
 }

@@ -1,6 +1,7 @@
 // The exactly sparse extended information filter.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,13 +11,14 @@ namespace seif {
 
 struct EseifOptions {
   int theta_x = 10;              // [-] links of the robot above which it is marginalised out and relocated
-  int relocation_landmarks = 4;  // [-] observations held back for that; two at least
+  int relocation_landmarks = 4;  // [-] observations kept for the relocation; at least two
 };
 
 /// Walter, Eustice, Leonard, "Exactly sparse extended information filters for feature-based SLAM", IJRR 2007.
-/// No link is ever cut: when the robot would have too many, the observations are split, it is marginalised
-/// out after the first part, and put back from the second part alone. That is exact, and forgets the odometry
-/// up to there. The mean is recovered exactly, so an update does not take constant time.
+/// This filter cuts no link. When the robot would get too many links, the scan is split: the filter takes in
+/// the first part, marginalises the robot out, and puts it back (relocates it) from the second part alone. This
+/// is exact, but forgets the odometry up to that moment. The mean is recovered exactly, so an update does not
+/// take constant time.
 class Eseif final : public InformationFilter {
  public:
   Eseif(const EstimatorSetup& setup, const EseifOptions& options);
@@ -31,9 +33,9 @@ class Eseif final : public InformationFilter {
 
   EseifOptions options_;
   std::int64_t relocations_ = 0;
-  std::vector<Observation> known_;      // of landmarks in the map, by bearing
+  std::vector<Observation> known_;      // observations of landmarks in the map, sorted by bearing
   std::vector<Observation> now_;        // taken in before the robot is marginalised out
-  std::vector<Observation> held_back_;  // from which it is relocated
+  std::vector<Observation> held_back_;  // the robot is relocated from these
 };
 
 }  // namespace seif

@@ -1,5 +1,7 @@
 #include "seif/exact_mean.hpp"
 
+#include <vector>
+
 #include "seif/mean_recovery.hpp"
 
 namespace seif {

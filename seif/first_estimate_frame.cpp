@@ -9,8 +9,8 @@
 namespace seif {
 namespace {
 
-/// The pose after the rigid motion that brings the means closest to the first estimates, in the sense of
-/// least squares. Nothing for less than two landmarks.
+/// The pose after the rigid motion that brings the means closest to the first estimates, in the least-squares
+/// sense. Nothing for fewer than two landmarks.
 std::optional<Pose2> fitted(std::span<const FirstEstimate> landmarks, const Pose2& pose) {
   if (landmarks.size() < 2) return std::nullopt;
   Eigen::Vector2d mean_centre = Eigen::Vector2d::Zero();
@@ -21,7 +21,7 @@ std::optional<Pose2> fitted(std::span<const FirstEstimate> landmarks, const Pose
   }
   mean_centre /= static_cast<double>(landmarks.size());
   first_centre /= static_cast<double>(landmarks.size());
-  double cosine = 0.0;  // of the angle between the two, times the same
+  double cosine = 0.0;  // of the angle of the turn; both times the same factor
   double sine = 0.0;
   for (const FirstEstimate& landmark : landmarks) {
     const Eigen::Vector2d a = landmark.mean - mean_centre;

@@ -7,7 +7,7 @@ Eigen::Vector2d FirstEstimates::move_pose(const Pose2& before, const Pose2& afte
   const Pose2 carried = from * (inverse(before) * after);
   const FramedPose framed = pose_among(active_, after, carried, sighting_sd_);
   pose_ = framed.pose;
-  const Pose2 to = framed.another_frame ? carried : framed.pose;  // changing the frame is no motion
+  const Pose2 to = framed.another_frame ? carried : framed.pose;  // a change of frame is not a motion
   return {to.x - from.x, to.y - from.y};
 }
 

@@ -1,4 +1,5 @@
-// Where each landmark was believed to be first: the points at which Jacobians take what nothing observes.
+// Where each landmark was first believed to be. Jacobians are taken at these points as far as they concern
+// motions that no observation can show.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,40 +13,41 @@
 
 namespace seif {
 
-/// Moving and turning robot and map as a whole changes no observation, so a filter must never learn it. It
-/// does learn it if each Jacobian is taken at another estimate. With first estimates all Jacobians take this
-/// motion about the same points for all time: Huang, Mourikis, Roumeliotis, "Observability-based rules for
-/// designing consistent EKF SLAM estimators", IJRR 2010.
+/// Moving and turning robot and map as a whole changes no observation, so a filter must never learn where the
+/// whole lies. It does learn it if each Jacobian is taken at another estimate. With first estimates, all
+/// Jacobians describe this motion about the same points at all times: Huang, Mourikis, Roumeliotis,
+/// "Observability-based rules for designing consistent EKF SLAM estimators", IJRR 2010.
 ///
-/// A landmark's first estimate settles after some sightings, or when the landmark gets its first link to a
-/// passive one. The pose's is its prediction, transformed into the frame of the first estimates: once a closed
-/// loop has moved the map as a whole, the prediction itself would not fit to them. A new landmark's first
-/// estimate is computed from that pose for the same reason.
+/// A landmark's first estimate settles (is fixed) after some sightings, or when the landmark gets its first
+/// link to a passive landmark. The pose's first estimate is its prediction, transformed into the frame of the
+/// first estimates: after a closed loop has moved the map as a whole, the prediction itself would not fit to
+/// them. A new landmark's first estimate is computed from that pose for the same reason.
 class FirstEstimates {
  public:
   explicit FirstEstimates(const Pose2& start) : pose_(start) {}
 
-  /// From now on a landmark's first estimate settles after `sightings` scans that saw it. Before the first
-  /// landmark joins. `sightings` is at least one.
+  /// From now on a landmark's first estimate settles after `sightings` scans that saw the landmark; at least
+  /// one. To be called before the first landmark joins.
   void settle_after(int sightings) { settled_after_ = sightings; }
   bool in_use() const { return settled_after_ > 0; }
   int settled_after() const { return settled_after_; }
 
-  /// The largest standard deviation of a sighting in the latest scan [m]; are_levers_alike() judges by it.
-  /// Before it is told, all first estimates count as alike.
+  /// The largest standard deviation of a sighting in the latest scan [m], for are_levers_alike(). Before the
+  /// first call all first estimates count as alike.
   void note_sighting_sd(double sighting_sd) { sighting_sd_ = sighting_sd; }
   double sighting_sd() const { return sighting_sd_; }
 
-  /// T_world_robot among the first estimates.
+  /// T_world_robot in the frame of the first estimates.
   const Pose2& pose() const { return pose_; }
-  /// p_world_landmark of the first estimate. [m]
+  /// The first estimate of a landmark, p_world_landmark. [m]
   Eigen::Vector2d point(int slot) const { return points_[static_cast<std::size_t>(slot)]; }
   void set_point(int slot, const Eigen::Vector2d& point) { points_[static_cast<std::size_t>(slot)] = point; }
   /// From the pose to the landmark. [m]
   Eigen::Vector2d lever(int slot) const { return point(slot) - Eigen::Vector2d(pose_.x, pose_.y); }
 
-  /// A point p_world as the robot at `pose` sees it, among the first estimates. It is not turned as the frame
-  /// is: the small turns of many landmarks, each placed by those before it, would add up. [m]
+  /// p_world, shifted by the difference of two poses: from the pose in the frame of the first estimates to the
+  /// result is the same vector as from `pose` to p_world. It is not turned as the frame is: the small turns of
+  /// many landmarks, each placed by earlier ones, would add up. [m]
   Eigen::Vector2d framed(const Eigen::Vector2d& p_world, const Pose2& pose) const {
     if (!in_use()) return p_world;
     return Eigen::Vector2d(pose_.x, pose_.y) + p_world - Eigen::Vector2d(pose.x, pose.y);
@@ -54,8 +56,8 @@ class FirstEstimates {
   /// The next landmark joins.
   void add(const Eigen::Vector2d& point) { points_.push_back(point); }
 
-  /// The prediction moves the pose from `before` to `after`. `for_each_active` calls its argument with slot
-  /// and mean of each active landmark. Returns by how much the pose among the first estimates moved. [m]
+  /// The prediction moves the pose from `before` to `after`. `for_each_active` calls its argument with slot and
+  /// mean of each active landmark. Returns by how much the pose in the frame of the first estimates moved. [m]
   template <class ForEachActive>
   Eigen::Vector2d move_pose(const Pose2& before, const Pose2& after, const ForEachActive& for_each_active) {
     active_.clear();

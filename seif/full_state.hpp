@@ -1,5 +1,5 @@
 // The whole belief of an information state, off the live path: each function makes a pass over the map. Rows
-// [x y theta m1x m1y ...], landmarks in the order of their slots.
+// are [x y theta m1x m1y ...], with the landmarks in the order of their slots.
 #pragma once
 
 #include <Eigen/Core>

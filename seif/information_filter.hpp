@@ -1,4 +1,4 @@
-// What all filters on an InformationState tell about it in the same way.
+// The part of the Estimator interface that all filters on an InformationState share.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ class InformationFilter : public Estimator {
   /// Throws std::invalid_argument if the start covariance is not positive definite.
   explicit InformationFilter(const EstimatorSetup& setup);
 
-  /// p_world_landmark [m]. A filter that moves landmarks only when somebody looks overrides it.
+  /// p_world_landmark [m]. A filter that updates means only when they are read overrides it.
   virtual Eigen::Vector2d mean(int slot) const { return state_.mean(slot); }
 
   InformationState state_;

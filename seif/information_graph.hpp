@@ -1,4 +1,4 @@
-// The part of the information form outside the window: landmarks, and the links between them.
+// The part of the information form outside the window: all landmarks, and the links between them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,20 +9,21 @@
 
 namespace seif {
 
-/// A graph of 2 x 2 blocks, each stored once and threaded through the lists of both its ends.
+/// A graph of 2 x 2 blocks. Each block is stored once, and is an element of the linked lists of both its
+/// landmarks.
 class InformationGraph {
  public:
   using Block = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>;
   using Point = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
   static constexpr int none = -1;
 
-  /// While a landmark is active, its mean, residual and information stand in the window, and those here are
-  /// stale.
+  /// While a landmark is active, its mean, residual and information are kept in the window, and the copies here
+  /// are out of date.
   struct Landmark {
     LandmarkId id = no_landmark;
-    int position = none;       // in the window; none: passive
+    int position = none;       // its position in the window; none: passive
     int first_link = none;     // head of its list of links
-    int last_seen = 0;         // number of the scan
+    int last_seen = 0;         // number of the latest scan that saw it
     int sightings = 0;         // [-] scans that saw it
     Point mu = Point::Zero();  // p_world_landmark [m]
     Point r = Point::Zero();   // residual
@@ -50,7 +51,7 @@ class InformationGraph {
     return link;
   }
 
-  /// The block of a link as seen from one of its ends; `slot_i` is one of the two.
+  /// Sets the block Omega_ij of a link, seen from `slot_i`, which is one of its two ends.
   void set_block(int link, int slot_i, const Block& Omega_ij) {
     Link& l = links_[index(link)];
     if (l.end[0] == slot_i) {
@@ -60,8 +61,8 @@ class InformationGraph {
     }
   }
 
-  /// Calls visit(link, end, other) for each link of a landmark: `end` is the end of the link at which the
-  /// landmark stands, `other` the slot at the far end.
+  /// Calls visit(link, end, other) for each link of a landmark. The landmark is end number `end` of the link (0
+  /// or 1); `other` is the slot at the other end.
   template <class Visit>
   void for_each_link(int slot, Visit&& visit) const {
     for (int link = landmark(slot).first_link; link != none;) {
@@ -73,7 +74,7 @@ class InformationGraph {
     }
   }
 
-  /// Omega_ij with i the first end of the link; transposed as seen from the second.
+  /// Omega_ij with i the first end of the link. The second end sees the transpose of it.
   const Block& stored_block(int link) const { return links_[index(link)].Omega_ij; }
   Block block(int link, int end) const {
     return end == 0 ? stored_block(link) : Block(stored_block(link).transpose());
@@ -82,10 +83,10 @@ class InformationGraph {
   std::size_t memory_bytes() const { return landmarks_.memory_bytes() + links_.memory_bytes(); }
 
  private:
-  /// While both ends are active, the block stands in the window, and this one is stale.
+  /// While both ends are active, the block is kept in the window, and this copy is out of date.
   struct Link {
     int end[2] = {none, none};   // slots i, j
-    int next[2] = {none, none};  // the next link in the list of i, of j
+    int next[2] = {none, none};  // the next link in the list of i, and of j
     Block Omega_ij = Block::Zero();
   };
 

@@ -218,7 +218,7 @@ void InformationState::set_mean(int slot, const Eigen::Vector2d& mean) {
   graph_.landmark(slot).mu = mean;
 }
 
-/// Of a passive landmark whose r has changed.
+/// To be called for a passive landmark whose r has changed.
 void InformationState::note_residual(Landmark& landmark) {
   if (!tracks_residual_) return;
   const double now = landmark.r.dot(landmark.Omega_ii.inverse() * landmark.r);

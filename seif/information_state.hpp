@@ -5,12 +5,11 @@
 //           active  [ ...    act,act      act,pas  ]
 //           passive [ 0      ...          pas,pas  ]
 //
-// Robot and active landmarks (those with a link to the robot) are the window. It is dense, and all that motion,
-// measurement and sparsification change lies in it. The rest is a graph of 2 x 2 blocks, each stored once.
-//
-// The state keeps the residual r = xi - Omega mu instead of xi. Then large numbers do not cancel, turning the
-// heading by a full circle changes nothing, and moving the mean by d is exact: r -= Omega d. xi = r + Omega mu
-// on demand.
+// Robot and active landmarks (those with a link to the robot) are the window. Its matrix is dense, and motion,
+// measurement and sparsification change nothing outside it. The rest is a graph of 2 x 2 blocks, each stored
+// once.
+// The state keeps the residual r = xi - Omega mu instead of xi. So no large numbers cancel, turning the heading
+// by a full circle changes nothing, and moving the mean by d is exact: r -= Omega d. xi is r + Omega mu.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,12 +39,13 @@ class InformationState {
   auto r() { return r_.head(window_size()); }  // (w x 1)
   auto r() const { return r_.head(window_size()); }
 
-  /// Scratch for a step, as large as the window, so that no step allocates. Holds nothing between steps.
+  /// Scratch memory for a step, as large as the window, so that no step allocates. Its content has no meaning
+  /// between steps.
   auto work() { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
-  void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller keeps r
+  void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller updates r
 
   /// Not in use by default: Jacobians are then taken at the mean (linearisation.hpp).
   FirstEstimates& first_estimates() { return first_estimates_; }
@@ -64,24 +64,24 @@ class InformationState {
   Eigen::Vector2d residual(int slot) const;     // r_i
   Eigen::Matrix2d information(int slot) const;  // Omega_ii
 
-  /// How many scans ago a landmark was last seen; 0: in the latest one.
+  /// How many scans ago a landmark was last seen. [-] 0: in the latest scan.
   int scans_since_seen(int slot) const { return scan_ - graph_.landmark(slot).last_seen; }
   int sightings(int slot) const { return graph_.landmark(slot).sightings; }           // [-] scans that saw it
-  bool has_link(int slot) const { return graph_.landmark(slot).first_link != none; }  // to a passive one
+  bool has_link(int slot) const { return graph_.landmark(slot).first_link != none; }  // to a passive landmark
   void begin_scan() { ++scan_; }
   void mark_seen(int slot);
 
-  /// Adds a passive landmark of which nothing is known yet: no information, no links. Returns its slot.
+  /// Adds a passive landmark without information and links: nothing is known of it yet. Returns its slot.
   int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean);
 
   /// Takes a passive landmark into the window; returns its position there.
   int activate(int slot);
 
-  /// Takes the landmark at `position` out of the window; its link to the robot must be zero. The last active
-  /// landmark moves to its place.
+  /// Takes the landmark at `position`, whose link to the robot must be zero, out of the window. The last active
+  /// landmark moves to its position.
   void deactivate(int position);
 
-  /// Calls visit(other slot, Omega_so) for every link of a landmark but those within the window.
+  /// Calls visit(other slot, Omega_so) for every link of a landmark, except for the links within the window.
   template <class Visit>
   void for_each_neighbour(int slot, Visit&& visit) const {
     const bool is_active = position(slot) != none;
@@ -90,28 +90,28 @@ class InformationState {
     });
   }
 
-  // Each moves means by d and keeps r exact, there and at all linked landmarks.
+  // Each of these moves means by d and keeps r exact, for the moved and for all linked landmarks.
   void move_robot(const Eigen::Vector3d& d);
   void move_landmark(int slot, const Eigen::Vector2d& d);
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d);  // (w x 1)
 
-  /// The same if all passive landmarks follow, each so that its own r stays: the window's r loses `dr`
-  /// (w x 1), no other r changes, and the caller keeps the means of the passive landmarks.
+  /// The same if all passive landmarks follow so that their own r stays: the window's r loses `dr` (w x 1), no
+  /// other r changes, and the caller updates the means of the passive landmarks.
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d, const Eigen::Ref<const Eigen::VectorXd>& dr);
 
-  /// The mean of a passive landmark; the caller keeps r.
+  /// Sets the mean of a passive landmark; the caller must update r.
   void set_mean(int slot, const Eigen::Vector2d& mean);
 
-  /// From now on squared_residual() is kept up to date wherever r changes. Before the first landmark joins.
+  /// Keeps squared_residual() up to date wherever r changes. To be called before the first landmark joins.
   void track_residual() { tracks_residual_ = true; }
-  /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks, in constant time [-]. Nothing if the robot's
+  /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks [-], in constant time. Nothing if the robot's
   /// block is not positive definite.
   std::optional<double> squared_residual() const;
 
-  /// The report's count: links of the robot + pairs of landmarks with a link.
+  /// The report's count: links of the robot + pairs of linked landmarks.
   std::int64_t link_count() const;
 
-  /// Blocks read or written so far; those who work on the window add what they touch.
+  /// Blocks read or written so far. Whoever works on the window adds its blocks with touch().
   std::int64_t blocks_touched() const { return blocks_touched_; }
   void touch(std::int64_t blocks) { blocks_touched_ += blocks; }
   /// The number of distinct blocks in the window.
@@ -136,14 +136,14 @@ class InformationState {
   Eigen::VectorXd r_;        // window
   Eigen::MatrixXd work_;     // as large as Omega_
   Eigen::Matrix<double, Eigen::Dynamic, 3> work_columns_;
-  Eigen::MatrixXi link_of_;  // by two positions: the link in the graph between them, or none (symmetric)
+  Eigen::MatrixXi link_of_;  // by two positions: the graph's link between them, or none (symmetric)
 
   InformationGraph graph_;
   LandmarkIndex index_;
   FirstEstimates first_estimates_;
   int scan_ = 0;
   bool tracks_residual_ = false;
-  double squared_residual_ = 0.0;  // of the passive landmarks
+  double squared_residual_ = 0.0;  // sum over the passive landmarks
   std::int64_t blocks_touched_ = 0;
 };
 

@@ -1,5 +1,6 @@
-// From a landmark's id to its slot, the order in which it joined the map. Two table look-ups; never rehashes,
-// so no insertion costs a pass over the map. Pages exist only where ids do.
+// Finds the slot of a landmark id. A slot is a landmark's number in the order in which it joined the map. A
+// search takes two table look-ups. The table never rehashes, so no insertion costs a pass over the map. A page
+// of the table exists only where there are ids.
 #pragma once
 
 #include <array>

@@ -5,9 +5,10 @@ namespace {
 
 Eigen::Vector2d p_world_robot(const InformationState& state) { return {state.pose().x, state.pose().y}; }
 
-/// With its variables changed so that turning the pose by dtheta takes the landmark along by J (from - to)
-/// dtheta, J a quarter turn, Omega knows nothing of turning everything about `to` instead of the old first
-/// estimate.
+/// Moves the first estimate of an active landmark to `to` by a change of variables: turning the pose by dtheta
+/// now also moves the landmark by J (from - to) dtheta, with J a quarter turn. Before, Omega held no
+/// information about turning everything about the old first estimate; afterwards it holds none about turning
+/// everything about `to`.
 void move_first_estimate(InformationState& state, int position, const Eigen::Vector2d& to) {
   const int slot = state.active(position);
   const Eigen::Vector2d by = to - state.first_estimates().point(slot);
@@ -63,8 +64,8 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
   });
 }
 
-/// A first estimate settles with its first link to a passive landmark: to move it then would link the pose to
-/// that landmark.
+/// A first estimate settles with its landmark's first link to a passive landmark: a later move of it would link
+/// the pose to that passive landmark.
 void update_first_estimates(InformationState& state) {
   const FirstEstimates& firsts = state.first_estimates();
   for (int position = 0; position < state.active_count(); ++position) {

@@ -13,20 +13,21 @@ namespace seif {
 Pose2 linearisation_pose(const InformationState& state);
 Eigen::Vector2d linearisation_point(const InformationState& state, int slot);
 
-/// From the pose to a landmark that is taken to be at p_world_landmark: the lever between the first estimates
-/// if it is like the one between the means. [m]
+/// The lever: the vector from the pose to a landmark that is taken to be at p_world_landmark. It is the lever
+/// between the first estimates if that is alike (are_levers_alike), otherwise the lever between the means. [m]
 Eigen::Vector2d lever(const InformationState& state, int slot, const Eigen::Vector2d& p_world_landmark);
 
-/// The pose as the first estimates of other active landmarks have it, to which the linearisation pose does not
-/// fit, as at the seam of a closed loop. Nothing if it fits to all.
+/// The pose in another frame of first estimates: that of active landmarks to which the linearisation pose does
+/// not fit, as at the seam of a closed loop. Nothing if it fits to all.
 std::optional<Pose2> other_linearisation_pose(const InformationState& state);
 
-/// Sets the mean of the pose to a motion's prediction; the caller keeps r. Returns by how much the pose moved
-/// from which levers are taken. [m]
+/// Sets the mean of the pose to the prediction of a motion; the caller must update r. Returns by how much the
+/// pose moved from which levers are computed. [m]
 Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& prediction);
 
-/// Replaces the first estimates of active landmarks that are not settled yet by their means. The information
-/// follows: Omega then knows nothing of turning everything about the new ones.
+/// Replaces the first estimates of active landmarks that are not settled yet by their means. Omega and r change
+/// with them, so that Omega still holds no information about a turn of everything, now about the new first
+/// estimates.
 void update_first_estimates(InformationState& state);
 
 }  // namespace seif

@@ -13,24 +13,24 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLLT<Sparse, Eigen::Lower>;  // P A P' = L L'
 
-/// [-] So many landmarks cost less one by one than by inverting the whole pattern, even in a long ring, whose
-/// elimination tree is as high as it is long.
-constexpr std::size_t few = 64;
+/// [-] Up to this number of landmarks, computing the blocks one by one costs less than inverting the whole
+/// pattern. This holds even in a long ring, whose elimination tree is as high as the ring is long.
+constexpr std::size_t few_landmarks = 64;
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
 /// column j:
 ///   Z_ij = -sum_k Z_ik L_kj / L_jj,   Z_jj = 1 / L_jj^2 - sum_k Z_kj L_kj / L_jj.
-/// Every Z_ik that is asked for lies on the pattern, since elimination of j links its rows pairwise.
+/// Every Z_ik in these sums lies on the pattern, since the elimination of j links its rows pairwise.
 void invert_on_pattern(Sparse& L) {
   const int n = static_cast<int>(L.cols());
   const int* starts = L.outerIndexPtr();
   const int* rows = L.innerIndexPtr();
   double* values = L.valuePtr();
-  Eigen::VectorXi place = Eigen::VectorXi::Constant(n, -1);  // of a row in the column at work
-  std::vector<double> column;                                // L_kj / L_jj
-  std::vector<double> sums;                                  // sum_k Z_ik L_kj / L_jj
+  Eigen::VectorXi index_of = Eigen::VectorXi::Constant(n, -1);  // of a row in the column at work
+  std::vector<double> column;                                   // L_kj / L_jj
+  std::vector<double> sums;                                     // sum_k Z_ik L_kj / L_jj
   for (int j = n - 1; j >= 0; --j) {
     const int first = starts[j] + 1;  // the diagonal comes first
     const int count = starts[j + 1] - first;
@@ -38,11 +38,11 @@ void invert_on_pattern(Sparse& L) {
     column.assign(values + first, values + first + count);
     for (double& l : column) l /= pivot;
     sums.assign(static_cast<std::size_t>(count), 0.0);
-    for (int a = 0; a < count; ++a) place(rows[first + a]) = a;
+    for (int a = 0; a < count; ++a) index_of(rows[first + a]) = a;
     for (int a = 0; a < count; ++a) {
       const int k = rows[first + a];
       for (int e = starts[k]; e < starts[k + 1]; ++e) {
-        const int b = place(rows[e]);
+        const int b = index_of(rows[e]);
         if (b < 0) continue;
         sums[static_cast<std::size_t>(b)] += values[e] * column[static_cast<std::size_t>(a)];
         if (b != a) sums[static_cast<std::size_t>(a)] += values[e] * column[static_cast<std::size_t>(b)];
@@ -53,43 +53,43 @@ void invert_on_pattern(Sparse& L) {
       const auto i = static_cast<std::size_t>(a);
       values[first + a] = -sums[i];
       diagonal += sums[i] * column[i];
-      place(rows[first + a]) = -1;
+      index_of(rows[first + a]) = -1;
     }
     values[starts[j]] = diagonal;
   }
 }
 
-/// The next column on the way up the elimination tree; -1 at its root.
+/// The next column on the path up the elimination tree; -1 at its root.
 int parent(const Sparse& L, int column) {
   const int below = L.outerIndexPtr()[column] + 1;  // the diagonal comes first
   return below < L.outerIndexPtr()[column + 1] ? L.innerIndexPtr()[below] : -1;
 }
 
-/// These rows and columns of A^-1: W' W with W = L^-1 P E, E being these columns of the identity. Of the rows
-/// of W only those are not zero, and kept, that lie on the ways from these up the elimination tree. `place`
-/// (n x 1) is -1, and is again afterwards.
-Eigen::MatrixXd block_of_inverse(const Factor& factor, std::span<const int> rows, Eigen::VectorXi& place) {
+/// These rows and columns of A^-1: W' W with W = L^-1 P E, where E has these columns of the identity. Only
+/// those rows of W that lie on the paths from `rows` up the elimination tree are not zero, and only they are
+/// stored. `index_of` (n x 1) is -1 before and after.
+Eigen::MatrixXd block_of_inverse(const Factor& factor, std::span<const int> rows, Eigen::VectorXi& index_of) {
   const Sparse& L = factor.matrixL().nestedExpression();
   const auto& permuted = factor.permutationP().indices();
   std::vector<int> ways;
   for (const int row : rows) {
-    for (int j = permuted(row); j >= 0 && place(j) < 0; j = parent(L, j)) {
-      place(j) = 0;
+    for (int j = permuted(row); j >= 0 && index_of(j) < 0; j = parent(L, j)) {
+      index_of(j) = 0;
       ways.push_back(j);
     }
   }
   std::ranges::sort(ways);
-  for (std::size_t k = 0; k < ways.size(); ++k) place(ways[k]) = static_cast<int>(k);
+  for (std::size_t k = 0; k < ways.size(); ++k) index_of(ways[k]) = static_cast<int>(k);
   Rows W = Rows::Zero(static_cast<Eigen::Index>(ways.size()), static_cast<Eigen::Index>(rows.size()));
   for (std::size_t c = 0; c < rows.size(); ++c)
-    W(place(permuted(rows[c])), static_cast<Eigen::Index>(c)) = 1.0;
+    W(index_of(permuted(rows[c])), static_cast<Eigen::Index>(c)) = 1.0;
   for (const int j : ways) {
     Sparse::InnerIterator entry(L, j);
-    auto w = W.row(place(j));
+    auto w = W.row(index_of(j));
     w /= entry.value();
-    for (++entry; entry; ++entry) W.row(place(entry.row())) -= entry.value() * w;
+    for (++entry; entry; ++entry) W.row(index_of(entry.row())) -= entry.value() * w;
   }
-  for (const int j : ways) place(j) = -1;
+  for (const int j : ways) index_of(j) = -1;
   return W.transpose() * W;
 }
 
@@ -119,10 +119,10 @@ std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
                                                               std::span<const std::vector<int>> blocks) {
   const Factor factor(A);
   if (factor.info() != Eigen::Success) return std::nullopt;
-  Eigen::VectorXi place = Eigen::VectorXi::Constant(A.rows(), -1);
+  Eigen::VectorXi index_of = Eigen::VectorXi::Constant(A.rows(), -1);
   std::vector<Eigen::MatrixXd> inverse;
   inverse.reserve(blocks.size());
-  for (const std::vector<int>& rows : blocks) inverse.push_back(block_of_inverse(factor, rows, place));
+  for (const std::vector<int>& rows : blocks) inverse.push_back(block_of_inverse(factor, rows, index_of));
   return inverse;
 }
 
@@ -130,7 +130,8 @@ std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
   const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
   MarginalCovariances marginals;
-  if (landmarks.size() <= few && landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
+  if (landmarks.size() <= few_landmarks &&
+      landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
     std::vector<std::vector<int>> blocks = {{0, 1, 2}};
     for (const LandmarkId landmark : landmarks) blocks.push_back({row_of(landmark), row_of(landmark) + 1});
     const auto Sigma = blocks_of_inverse(full_Omega(state), blocks);

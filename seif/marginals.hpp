@@ -1,5 +1,6 @@
-// Marginal covariances of an information state, off the live path: a sparse Cholesky factorisation and those
-// entries of the inverse that lie on the factor's pattern.
+// Marginal covariances of an information state, off the live path. They come from a sparse Cholesky
+// factorisation, and from those entries of the inverse that lie on the pattern of the factor (where the factor
+// is not zero).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,7 +13,7 @@
 
 namespace seif {
 
-/// The entries of A^-1 on the pattern of its Cholesky factor, as blocks on the diagonal. Takahashi's
+/// The entries of A^-1 on the pattern of its Cholesky factor; blocks on the diagonal can be read. Takahashi's
 /// recursion: Erisman, Tinney, "On computing certain elements of the inverse of a sparse matrix", CACM 1975.
 class DiagonalBlocksOfInverse {
  public:
@@ -34,15 +35,16 @@ class DiagonalBlocksOfInverse {
 
  private:
   Eigen::SparseMatrix<double> Z_;  // lower triangle, permuted
-  Eigen::VectorXi permuted_;       // where row i of A went
+  Eigen::VectorXi permuted_;       // [-] the permuted row of row i of A
 };
 
-/// A^-1 at the rows of each block and the same columns, by one factorisation and the ways from these rows up
-/// the elimination tree. `A` is symmetric, its lower triangle given. Nothing if it is not positive definite.
+/// For each block: A^-1 at the block's rows and the same columns. Takes one factorisation, and for each of
+/// these rows the path up the elimination tree. `A` is symmetric, its lower triangle given. Nothing if it is
+/// not positive definite.
 std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Eigen::SparseMatrix<double>& A,
                                                               std::span<const std::vector<int>> blocks);
 
-/// The rows of [x y theta m1x m1y ...] that a group's joint covariance takes, in its order.
+/// The rows of [x y theta m1x m1y ...] of which a group's joint covariance consists, in its order.
 template <class RowOf>
 std::vector<int> joint_rows(const LandmarkIds& group, const RowOf& row_of) {
   std::vector<int> rows = {0, 1, 2};
@@ -52,11 +54,11 @@ std::vector<int> joint_rows(const LandmarkIds& group, const RowOf& row_of) {
   return rows;
 }
 
-/// As Estimator::marginal_covariances. For a few landmarks little more than the factorisation.
+/// See Estimator::marginal_covariances. For a few landmarks the cost is little more than the factorisation.
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks);
 
-/// As Estimator::joint_covariances, at the cost that marginals_of() has for a few.
+/// See Estimator::joint_covariances. The cost is that of marginals_of() for a few landmarks.
 std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const InformationState& state,
                                                                  std::span<const LandmarkIds> groups);
 

@@ -1,9 +1,9 @@
-// How Seif keeps its mean right: what an update asks for, in the order in which it asks.
+// How Seif keeps its mean up to date: the calls of an update, in their order.
 //
 //   scan -> activate -> before_information -> (information is added) -> solve_window -> join
 //        -> after_information -> (sparsification) -> deactivate -> end_update
 //
-// Three implementations stand side by side: TreeMean (tree/), GroupMean (groups/) and ExactMean.
+// There are three implementations: TreeMean (tree/), GroupMean (groups/) and ExactMean.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,42 +22,43 @@ class MeanKeeper {
  public:
   virtual ~MeanKeeper() = default;
 
-  /// Before a scan is taken in: moves the landmarks `slots` into the window, with their present means. Takes
-  /// those out of `slots` that have to wait. `range`: of the farthest observation [m]. False if a matrix is
-  /// not positive definite.
+  /// Called before a scan is taken in. Moves the landmarks `slots` into the window, with their present means.
+  /// Removes from `slots` the landmarks that have to wait. `range`: of the farthest observation [m]. False if a
+  /// matrix is not positive definite.
   [[nodiscard]] virtual bool activate(InformationState& state, std::vector<int>& slots, double range) = 0;
 
-  /// Before and after the information of a scan is added; all known landmarks that it sees are active. False if
-  /// a matrix is not positive definite.
+  /// Called before and after the information of a scan is added. All known landmarks that the scan sees are
+  /// active then. False if a matrix is not positive definite.
   [[nodiscard]] virtual bool before_information(const InformationState& /*state*/) { return true; }
   [[nodiscard]] virtual bool after_information(const InformationState& /*state*/) { return true; }
 
-  /// The mean of robot and active landmarks, given what is known of the others. May be called often in one
-  /// update. False if a matrix is not positive definite.
+  /// Computes the mean of robot and active landmarks, given what is known of the other landmarks. May be called
+  /// several times in one update. False if a matrix is not positive definite.
   [[nodiscard]] virtual bool solve_window(InformationState& state) = 0;
 
-  /// A landmark has just joined the map; it is not active yet.
+  /// Called when a landmark has just joined the map. It is not active yet.
   virtual void join(const InformationState& state, int slot) = 0;
 
-  /// These landmarks have left the window. False if a matrix is not positive definite.
+  /// Called when these landmarks have left the window. False if a matrix is not positive definite.
   [[nodiscard]] virtual bool deactivate(const InformationState& /*state*/, std::span<const int> /*slots*/) {
     return true;
   }
 
-  /// The last step of an update: recovers the mean of the others as far as this implementation does. False
-  /// if a matrix is not positive definite.
+  /// The last step of an update: recovers the mean of the other landmarks, as far as this implementation does
+  /// so. False if a matrix is not positive definite.
   [[nodiscard]] virtual bool end_update(InformationState& state) = 0;
 
-  /// p_world_landmark as it is now. [m]
+  /// The mean of a landmark now, p_world_landmark. [m]
   virtual Eigen::Vector2d mean(const InformationState& state, int slot) const = 0;
 
-  /// The Cholesky factor of the last solve_window(), L L' = (Omega + what is known of all others), if L takes
-  /// in all of Omega: then (L L')^-1 is the covariance of the window. Null otherwise. (w x w), lower triangle
+  /// The Cholesky factor L (w x w, lower triangle) of the last solve_window(), L L' = Omega + what is known of
+  /// all other landmarks, if L takes all of Omega into account. Then (L L')^-1 is the covariance of the window.
+  /// Null otherwise.
   virtual const WindowFactor* window_factor() const { return nullptr; }
 
   /// Blocks read or written so far. [-]
   virtual std::int64_t blocks_touched() const = 0;
-  /// Counts::mean_residual, where it is known.
+  /// Counts::mean_residual, if this implementation knows it.
   virtual std::optional<double> residual() const { return std::nullopt; }
   virtual std::size_t memory_bytes() const = 0;
 };

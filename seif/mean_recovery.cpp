@@ -22,7 +22,7 @@ bool relax_robot(InformationState& state) {
   return true;
 }
 
-/// M = L L', L in its lower triangle. False if M is not positive definite.
+/// Factorises M = L L' in place; L is then in the lower triangle. False if M is not positive definite.
 bool factorise_in_place(Eigen::Ref<Eigen::MatrixXd> M) {
   return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>(M).info() == Eigen::Success;
 }

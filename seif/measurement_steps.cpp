@@ -37,13 +37,13 @@ void linearise_known(const InformationState& state, const Scan& scan, const Pose
 
 bool relinearise(InformationState& state, const Pose2& T_robot_sensor, double relinearise_above,
                  std::vector<ObservationFactor>& factors) {
-  const double most = relinearise_above * relinearise_above;
+  const double most_squared = relinearise_above * relinearise_above;
   bool any = false;
   for (ObservationFactor& factor : factors) {
     const ObservationFactor now = linearise(state, factor.slot, factor.observation, T_robot_sensor);
     Eigen::Vector2d nonlinearity = now.v - residual(state, factor);
     nonlinearity(1) = wrap_angle(nonlinearity(1));
-    if (squared_norm(nonlinearity, factor) <= most) continue;
+    if (squared_norm(nonlinearity, factor) <= most_squared) continue;
     subtract(state, factor);
     add(state, now);
     factor = now;

@@ -1,4 +1,4 @@
-// Steps of Seif's measurement update that need the state alone.
+// Steps of Seif's measurement update that need nothing but the state.
 #pragma once
 
 #include <utility>
@@ -9,27 +9,28 @@
 
 namespace seif {
 
-/// The standard deviation of a sighting: the larger of the range's and the bearing's. [m]
+/// The standard deviation of a sighting: the larger of the range's and the bearing's, as a distance. [m]
 double sd_of_sighting(const Observation& observation);
 
 /// Whether the landmark is seen so far from its mean that the direction to the mean is useless: farther than
-/// `closing_gate` times the measured range. Never if `closing_gate` is 0.
+/// `closing_gate` times the measured range. This happens when a long loop closes. Always false if
+/// `closing_gate` is 0.
 bool is_closing(const InformationState& state, int slot, const Observation& observation,
                 const Pose2& T_robot_sensor, double closing_gate);
 
-/// Replaces `factors` by those of the observations of active landmarks, all linearised at one state: eqs.
-/// (15), (23). One that is_closing() is linearised at the measurement.
+/// Replaces `factors` by the factors of all observations of active landmarks, all linearised at the present
+/// state: eqs. (15), (23). An observation for which is_closing() holds is linearised at the measurement.
 void linearise_known(const InformationState& state, const Scan& scan, const Pose2& T_robot_sensor,
                      double closing_gate, std::vector<ObservationFactor>& factors);
 
-/// Takes those factors out whose nonlinearity at the present mean is above `relinearise_above`, and puts them
-/// in again, linearised there. True if there was one. [sigma]
+/// Takes out the factors whose nonlinearity at the present mean is above `relinearise_above` [sigma], and adds
+/// them again, linearised at the present mean. True if there was such a factor.
 bool relinearise(InformationState& state, const Pose2& T_robot_sensor, double relinearise_above,
                  std::vector<ObservationFactor>& factors);
 
-/// Takes in that these pairs of active landmarks are one: m_a - m_b = 0 with standard deviation equal_sd.
-/// Where their first estimates lie apart, the lever between these goes into the Jacobian, so that the filter
-/// learns no heading from it.
+/// Adds the information that the two landmarks of each pair are the same one: m_a - m_b = 0 with standard
+/// deviation equal_sd. Skips pairs that are not both active. If their first estimates lie apart, the lever
+/// between these enters the Jacobian, so that the filter learns no heading from it.
 void add_equal(InformationState& state, const std::vector<std::pair<int, int>>& equal_slots);
 
 }  // namespace seif

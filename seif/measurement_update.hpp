@@ -8,10 +8,10 @@
 
 namespace seif {
 
-/// Adds the information of the observations, all linearised at the mean as it stands. A landmark that is not
-/// in the map joins it where the inverse observation puts it; a passive one becomes active. The mean of what
-/// is known already does not move: that is for the mean recovery. Returns the number of landmarks that
-/// joined.
+/// Adds the information of the observations, all linearised at the present mean. A landmark that is not in the
+/// map joins it at the position that the inverse observation gives. A passive landmark becomes active. The
+/// means of robot and known landmarks do not move: that is left to the mean recovery. Returns the number of
+/// landmarks that joined.
 int measurement_update(InformationState& state, std::span<const Observation> observations,
                        const Pose2& T_robot_sensor);
 

@@ -12,8 +12,8 @@ constexpr double nearest_linearised_range = 0.01;  // [m]
 /// v turned by +90 degrees: d/dtheta of R(theta) w where v = R(theta) w.
 Eigen::Vector2d perpendicular(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// M with M M' = covariance, also where that is singular: a differential drive's has rank 2, one at rest rank
-/// 0.
+/// M with M M' = covariance, also for a singular covariance: a differential drive's has rank 2, and rank 0 at
+/// rest.
 Eigen::Matrix3d square_root(const Eigen::Matrix3d& covariance) {
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(covariance);
   const Eigen::Vector3d pivots = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt();

@@ -9,7 +9,7 @@ namespace seif {
 
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
-/// The pose after an increment, g(x, u), and how it depends on pose and increment; eqs. (26), (29).
+/// The pose after an increment, g(x, u), and its Jacobian and noise; eqs. (26), (29).
 struct PredictedPose {
   Pose2 pose;                                                // T_world_robot after the increment
   Eigen::Matrix3d J_wrt_pose = Eigen::Matrix3d::Identity();  // F = I + A (3 x 3)
@@ -17,24 +17,27 @@ struct PredictedPose {
       Eigen::Matrix3d::Zero();  // L with L L' = R, in the world frame (3 x 3), any rank
 };
 
-/// `odometry.covariance` must be positive semidefinite; rounding below zero is taken as zero.
+/// `odometry.covariance` must be positive semidefinite. Negative eigenvalues that come from rounding count as
+/// zero.
 PredictedPose predict_pose(const Pose2& T_world_robot, const Odometry& odometry);
 
-/// What the sensor should see, h(x, m), and how it depends on pose and landmark; eqs. (15), (23).
+/// The expected observation h(x, m), and its Jacobians with respect to pose and landmark; eqs. (15), (23).
 struct PredictedObservation {
   Eigen::Vector2d z = Eigen::Vector2d::Zero();               // range [m], bearing [rad]
   Matrix23 J_wrt_pose = Matrix23::Zero();                    // (2 x 3)
   Eigen::Matrix2d J_wrt_landmark = Eigen::Matrix2d::Zero();  // (2 x 2)
 };
 
-/// The Jacobian is that at 1 cm where the landmark is nearer: at the sensor itself a bearing has none.
+/// If the landmark is nearer than 1 cm, the Jacobian is the one at 1 cm: at the sensor itself the bearing has
+/// no derivative.
 PredictedObservation predict_observation(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                          const Eigen::Vector2d& p_world_landmark);
 
 /// z - z_hat with the bearing wrapped. [m, rad]
 Eigen::Vector2d innovation(const Observation& observation, const Eigen::Vector2d& z_hat);
 
-/// Where a landmark must be that is seen so, and how that depends on pose and observation.
+/// The position of a landmark that is observed in this way, and its Jacobians with respect to pose and
+/// observation.
 struct InverseObservation {
   Eigen::Vector2d p_world_landmark = Eigen::Vector2d::Zero();   // [m]
   Matrix23 J_wrt_pose = Matrix23::Zero();                       // (2 x 3)
@@ -44,8 +47,8 @@ struct InverseObservation {
 InverseObservation invert_observation(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                       const Observation& observation);
 
-/// The inverse of Huber's weight: the Mahalanobis distance over `robust_above` [sigma] where it is larger, else 1;
-/// 1 if `robust_above` is 0. [-]
+/// The inverse of Huber's weight [-]: the Mahalanobis distance divided by `robust_above` [sigma] if this ratio
+/// is above 1, else 1. Always 1 if `robust_above` is 0.
 double huber_excess(double squared_distance, double robust_above);
 
 }  // namespace seif

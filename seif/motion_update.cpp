@@ -8,8 +8,9 @@
 namespace seif {
 namespace {
 
-/// H' = Psi' H Psi and r' = Psi' r. Psi = F^-1 differs from the identity in two entries of the robot's block
-/// alone: how x and y turn with the heading, with the sign changed; the book's (12.12), (12.13).
+/// Omega' = Psi' Omega Psi and r' = Psi' r; Probabilistic Robotics, (12.12), (12.13). Psi = F^-1 differs from
+/// the identity only in two entries of the robot's block: the derivatives of x and y with respect to the
+/// heading, with the sign changed.
 void change_pose_variable(InformationState& state, const Eigen::Matrix3d& F) {
   const double psi_x = -F(0, 2);
   const double psi_y = -F(1, 2);
@@ -20,8 +21,10 @@ void change_pose_variable(InformationState& state, const Eigen::Matrix3d& F) {
   r(2) += psi_x * r(0) + psi_y * r(1);
 }
 
-/// (H'^-1 + S_x L L' S_x')^-1 = H' - A (I + L' A_x)^-1 A' with A = H' S_x L: the inverse of the noise is not
-/// needed, which a differential drive does not have. And r_bar = r' - A (I + L' A_x)^-1 L' r'_x.
+/// (Omega'^-1 + S_x L L' S_x')^-1 = Omega' - A (I + L' A_x)^-1 A'  with A = Omega' S_x L,
+/// r_bar = r' - A (I + L' A_x)^-1 L' r'_x.
+/// S_x picks the rows of the robot. This form does not need the inverse of the noise, which does not exist for
+/// a differential drive.
 void add_motion_noise(InformationState& state, const Eigen::Matrix3d& L) {
   auto Omega = state.Omega();
   auto r = state.r();
@@ -34,8 +37,8 @@ void add_motion_noise(InformationState& state, const Eigen::Matrix3d& L) {
   Omega.noalias() -= A * A.transpose();
 }
 
-/// Left alone, rounding makes the robot's rows lose their symmetry, and then Omega its definiteness,
-/// exponentially.
+/// Without this step, rounding makes the robot's rows lose their symmetry, and then Omega its definiteness; the
+/// error grows exponentially.
 void symmetrise_robot_rows(InformationState& state) {
   auto Omega = state.Omega();
   auto Omega_xx = Omega.topLeftCorner<3, 3>();

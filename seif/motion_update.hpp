@@ -6,13 +6,14 @@
 
 namespace seif {
 
-/// Moves the robot by an odometry increment and lets its noise weaken the links of the robot, which become
-/// links between the active landmarks. Touches the window alone.
+/// Moves the robot by an odometry increment. Its noise weakens the links of the robot, and makes links between
+/// the active landmarks instead. Works in the window alone.
 ///
-/// It is exact (up to linearisation) for any residual and any rank of the motion noise, none included. The
-/// report's (36) differs twice: it inverts the singular S_x' A S_x where Psi = (I + A)^-1 is at hand (the
-/// book's (12.12)), and its b_bar has the sign of H' - H wrong. With the sign right, (36) leaves r as it is,
-/// which is exact while r_x = 0.
+/// The update is exact (up to linearisation) for any residual and for motion noise of any rank, zero included.
+/// The report's (36) differs in two points. It inverts S_x' A S_x, which is singular, although Psi = (I + A)^-1
+/// has a closed form (Probabilistic Robotics, (12.12)). And in its information vector b_bar (xi here), the
+/// change of the information matrix has the wrong sign. With the right sign, (36) leaves r unchanged, which is
+/// exact while r_x = 0.
 void motion_update(InformationState& state, const Odometry& odometry);
 
 }  // namespace seif

@@ -19,8 +19,9 @@ ObservationFactor unlinearised(const InformationState& state, int slot, const Ei
   return factor;
 }
 
-/// With first estimates: what turning the pose does is the opposite of what turning the landmark's first
-/// estimate about the pose's does, so that turning everything does nothing. The landmark is taken to be at p.
+/// With first estimates: sets the column of J_x for the heading so that turning everything changes nothing.
+/// Turning the pose then has the opposite effect of turning the landmark's first estimate about the pose's
+/// first estimate. The landmark is taken to be at p_world_landmark.
 void keep_null_space(const InformationState& state, const Eigen::Vector2d& p_world_landmark,
                      ObservationFactor& factor) {
   if (!state.first_estimates().in_use()) return;

@@ -1,4 +1,4 @@
-// One observation linearised: what it adds to the information form, and how to take exactly that out again.
+// One linearised observation: what it adds to the information form, and how to take exactly that out again.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace seif {
 
-/// Says of the pose x and the landmark m that J_x (x - x0) + J_m (m - m0) = v, with covariance Q.
+/// The linear equation J_x (x - x0) + J_m (m - m0) = v for pose x and landmark m, with noise of covariance Q.
 struct ObservationFactor {
   int slot = -1;
   Observation observation;
@@ -21,29 +21,32 @@ struct ObservationFactor {
   Eigen::Vector2d m0 = Eigen::Vector2d::Zero();         // p_world_landmark [m]
 };
 
-/// Linearised at the mean of the state; with first estimates, what turning the pose does is taken from them.
+/// Linearised at the mean of the state. With first estimates, the column of J_x for the heading is taken from
+/// these.
 ObservationFactor linearise(const InformationState& state, int slot, const Observation& observation,
                             const Pose2& T_robot_sensor);
-/// The same of a passive landmark whose mean the state does not know, but the caller. p_world_landmark [m]
+/// The same for a passive landmark whose mean the caller knows and the state does not. `mean`: p_world_landmark
+/// [m]
 ObservationFactor linearise(const InformationState& state, int slot, const Eigen::Vector2d& mean,
                             const Observation& observation, const Pose2& T_robot_sensor);
 
-/// Linearised where the sensor says that the landmark is, seen from the mean of the pose: for a pose so wrong
-/// that the direction in which it believes the landmark to lie is useless, as after a long loop.
+/// Linearised at the position where the sensor says that the landmark is, seen from the mean of the pose. For
+/// poses with such a large error that the believed direction to the landmark is useless, as at the end of a
+/// long loop.
 ObservationFactor linearise_at_measurement(const InformationState& state, int slot,
                                            const Observation& observation, const Pose2& T_robot_sensor);
 
-/// What the factor expects the innovation to be at the present mean: v - J (mu - mu_0). [m, rad]
+/// The innovation that the factor gives at the present mean: v - J (mu - mu_0). [m, rad]
 Eigen::Vector2d residual(const InformationState& state, const ObservationFactor& factor);
 
 /// v' Q^-1 v. [-]
 double squared_norm(const Eigen::Vector2d& v, const ObservationFactor& factor);
 
-/// (21), (22): Omega += J' Q^-1 J, and r += J' Q^-1 v with v at the present mean. Takes the landmark into the
-/// window.
+/// Eqs. (21), (22): Omega += J' Q^-1 J, and r += J' Q^-1 v with v at the present mean. Takes the landmark into
+/// the window.
 void add(InformationState& state, const ObservationFactor& factor);
 
-/// Takes out what add() put in, whatever the mean has become since. The landmark must be active still.
+/// Takes out what add() has added, even if the mean has moved since. The landmark must still be active.
 void subtract(InformationState& state, const ObservationFactor& factor);
 
 }  // namespace seif

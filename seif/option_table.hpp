@@ -1,5 +1,5 @@
-// The options of an estimator, each said once: where it stands in the struct, its key, its range, its help. The
-// defaults are those of the struct.
+// The options of an estimator. Each is described in one place: its member in the options struct, its key, its
+// range, its help text. The defaults are those of the struct.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct OptionRange {
   double max = std::numeric_limits<double>::infinity();
 };
 
-/// What a world file may say for a value of an enumeration.
+/// The words that a world file may use for the values of an enumeration.
 template <class Enum>
 using OptionChoices = std::vector<std::pair<std::string, Enum>>;
 
-/// Describes the options that a Struct holds, and reads them. `field` is always a function that returns the
-/// member of a Struct& by reference: `[](SeifOptions& o) -> int& { return o.theta_x; }`.
+/// Describes the options of a Struct, and reads them. `field` is always a function that returns the member of a
+/// Struct& by reference: `[](SeifOptions& o) -> int& { return o.theta_x; }`.
 template <class Struct>
 class OptionTable {
  public:

@@ -1,5 +1,6 @@
 #include "seif/plain_seif.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 

@@ -1,5 +1,4 @@
-// The estimators by name, with their options: one list from which world files are checked and filters are
-// made.
+// The estimators by name, with their options. This one list is used to check world files and to make filters.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ struct OptionSpec {
   std::string help;                                       // one sentence, with the unit
 };
 
-/// A kind of estimator: how it is called, what can be set, how it is made.
+/// A kind of estimator: its name, its options, and how it is made.
 struct EstimatorType {
   std::string name;
   std::string help;  // one sentence
@@ -46,7 +45,7 @@ class Registry {
 
   const std::vector<EstimatorType>& types() const { return types_; }
 
-  /// Null if there is none of that name.
+  /// Null if no estimator type has this name.
   const EstimatorType* find(std::string_view name) const;
 
  private:
@@ -56,8 +55,8 @@ class Registry {
 /// Every estimator that this library brings.
 Registry standard_estimators();
 
-/// The value of an option; throws std::out_of_range if it is missing and std::bad_variant_access if of
-/// another type.
+/// The value of an option. Throws std::out_of_range if the option is missing, and std::bad_variant_access if it
+/// has another type.
 template <class T>
 const T& option(const Options& options, const std::string& key) {
   return std::get<T>(options.at(key));

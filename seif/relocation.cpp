@@ -4,7 +4,7 @@
 
 namespace seif {
 
-/// H_mm -= H_mx H_xx^-1 H_xm, r_m -= H_mx H_xx^-1 r_x.
+/// Omega_mm -= Omega_mx Omega_xx^-1 Omega_xm, r_m -= Omega_mx Omega_xx^-1 r_x.
 bool marginalise_robot(InformationState& state) {
   auto Omega = state.Omega();
   auto r = state.r();

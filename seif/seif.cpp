@@ -76,7 +76,8 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   done(Stage::mean_recovery);
 }
 
-/// Moves the known landmarks of the scan, and those that are to be joined, into the window.
+/// Moves into the window: the known landmarks of the scan, and those that are to be joined because they are the
+/// same.
 void Seif::activate_known(const Scan& scan) {
   seen_.clear();
   double range = 0.0;
@@ -96,7 +97,8 @@ void Seif::activate_known(const Scan& scan) {
   for (const int slot : seen_) state_.mark_seen(slot);
 }
 
-/// Before the scan is taken in: what this moves is no innovation of the scan.
+/// Called before the scan is taken in, so that the step of the mean does not count as an innovation of the
+/// scan.
 void Seif::join_equal(double t) {
   if (equal_slots_.empty()) return;
   add_equal(state_, equal_slots_);
@@ -104,11 +106,11 @@ void Seif::join_equal(double t) {
   solve_window(t);
 }
 
-/// Ignores the observations that the gate shuts out, and weakens those beyond robust_above. Each is judged
-/// by itself, before any of the scan is added.
+/// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each
+/// is tested alone, before any observation of the scan is added.
 void Seif::check_innovations(double t) {
   if (factors_.empty()) return;
-  solve_window(t);  // for its factor; r is zero already, so nothing moves
+  solve_window(t);  // for its factor; r is already zero, so no mean moves
   const WindowFactor& window = *keeper_->window_factor();
   std::size_t kept = 0;
   for (ObservationFactor& factor : factors_) {
@@ -140,10 +142,10 @@ double Seif::squared_mahalanobis(const ObservationFactor& factor, const WindowFa
   return v.dot(S.inverse() * v);
 }
 
-/// v' S^-1 v of all factors together, from what the step has just left of them. Let d be the step of all means
-/// and C the information before the scan. The least squared error of belief and scan is
+/// v' S^-1 v of all factors together, computed from the step that solve_window() has just made. Let d be the
+/// step of all means and C the information before the scan. The least squared error of belief and scan is
 ///   d' C d + sum (v - J d)' Q^-1 (v - J d) = sum v' Q^-1 v - b' (C + sum J' Q^-1 J)^-1 b,  b = sum J' Q^-1 v,
-/// and it equals v' S^-1 v with S = J C^-1 J' + Q. With the tree r was zero before, so b is r.
+/// and it equals v' S^-1 v with S = J C^-1 J' + Q. With the tree, r was zero before the scan, so b is r.
 void Seif::note_innovation() {
   const WindowFactor* window = keeper_->window_factor();
   if (window == nullptr) return;
@@ -160,9 +162,9 @@ void Seif::relinearise(double t) {
   }
 }
 
-/// Adds the landmarks that were never seen before, placed from the pose as the others have corrected it: their
-/// innovation is zero. False if it is not, since one was seen more than once; then the window is to be solved
-/// for again.
+/// Adds the landmarks that were never seen before, placed from the pose that the other observations have
+/// corrected. Their innovation is zero. Returns false if one of them was seen more than once: then its
+/// innovation is not zero, and the window must be solved again.
 bool Seif::add_new(const Scan& scan) {
   const int known = state_.landmark_count();
   bool seen_once = true;
@@ -187,7 +189,8 @@ void Seif::solve_window(double t) {
   if (!keeper_->solve_window(state_)) throw NumericalFailure("local solve", t);
 }
 
-/// In a burst: that costs less, and keeps more information, than holding the bound at each update.
+/// Drops the links in a burst: this costs less, and keeps more information, than enforcing the bound at each
+/// update.
 void Seif::sparsify(double t) {
   choose_surplus(state_, {.theta_x = options_.theta_x, .theta_max = options_.theta_max}, to_drop_);
   if (to_drop_.empty()) return;

@@ -1,6 +1,6 @@
 // Our sparse extended information filter: as accurate and as consistent as the dense filters on the worlds of
-// the gallery. The work of its median update does not grow with the map; docs/stress.md tells what the tail and
-// the memory do.
+// the gallery. The work of its median update does not grow with the map; docs/stress.md describes the slowest
+// updates and the memory.
 #pragma once
 
 #include <cstddef>
@@ -23,19 +23,19 @@ namespace seif {
 struct SeifOptions {
   int theta_x = 6;     // [-] landmarks that keep their link to the robot after a sparsification
   int theta_max = 16;  // [-] sparsify only when the robot has more links than this
-  /// [-] Scans that see a landmark before its first estimate is settled. It settles earlier when the landmark
-  /// gets a link to a passive one (FirstEstimates). 0: no first estimates.
+  /// [-] A landmark's first estimate settles after this number of scans that saw it, or earlier, when the
+  /// landmark gets a link to a passive one (FirstEstimates). 0: no first estimates.
   int first_estimates = 5;
   /// [sigma] An observation with a larger nonlinearity is linearised again at the updated mean.
   double relinearise_above = 0.1;
-  /// [-] An observation is linearised at the measurement if the landmark is seen farther from its mean than so
-  /// many times the measured range: the direction to the mean is useless then, as when a long ring closes.
-  /// 0: never.
+  /// [-] An observation is linearised at the measurement if the landmark is seen farther from its mean than
+  /// this number of times the measured range. Then the direction to the mean is useless, as when a long ring
+  /// closes. 0: never.
   double closing_gate = 0.5;
-  /// [-] Ignores an observation of a known landmark with v' S^-1 v above this. 0: never. Needs
+  /// [-] Observations of a known landmark with v' S^-1 v above this are ignored. 0: none are. Needs
   /// MeanRecovery::tree, which knows the covariance of the window in bounded work.
   double gate = 0.0;
-  /// [sigma] Enlarges the covariance of an observation with sqrt(v' S^-1 v) above this, by the ratio of the
+  /// [sigma] The covariance of an observation with sqrt(v' S^-1 v) above this is multiplied by the ratio of the
   /// two: Huber's weight. 0: never. Needs MeanRecovery::tree, too.
   double robust_above = 0.0;
   MeanRecovery mean_recovery = MeanRecovery::tree;  // tree, multilevel or exact
@@ -45,11 +45,12 @@ struct SeifOptions {
 
 /// It differs from the report's filter in five points:
 /// - It keeps r = xi - Omega mu, so that a step of the mean is exact (information_state).
-/// - It solves for robot and active landmarks after the observations, and places new landmarks from there.
+/// - It solves for robot and active landmarks after the observations, and places new landmarks from the
+///   corrected pose.
 /// - It takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes.
 /// - It sparsifies by the gauge-free rule, in bursts, and never drops a landmark in view (sparsification).
-/// - It recovers the mean with a condensation tree (tree/), or by rigid groups of landmarks (groups/).
+/// - It recovers the mean with a condensation tree (tree/), or with rigid groups of landmarks (groups/).
 class Seif final : public InformationFilter {
  public:
   /// Throws std::invalid_argument if the start covariance is not positive definite, for a gate without the

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -41,14 +42,14 @@ bool marginalise_landmarks(InformationState& state, std::span<const int> slots) 
   return true;
 }
 
-/// Nothing if M (3 x 3) is not positive definite.
+/// The logarithm of det M. Nothing if M (3 x 3) is not positive definite.
 std::optional<double> log_determinant(const Eigen::Matrix3d& M) {
   const LLT3 llt(M);
   if (llt.info() != Eigen::Success) return std::nullopt;
   return 2.0 * llt.matrixLLT().diagonal().array().log().sum();
 }
 
-/// Takes away the robot's links to the landmarks `slots`. D in state.work() is the belief over the window from
+/// Removes the robot's links to the landmarks `slots`. D in state.work() is the belief over the window from
 /// which p(x | Y+) is taken; x, K, Z are the robot, the landmarks that stay and those that go. Eq. (50) is then
 ///   [Lambda X] = rows x of the marginal of D over (x, K),
 ///   Omega_mm -= Omega_mx Omega_xx^-1 Omega_xm  (the robot marginalised out; m: all landmarks of the window),
@@ -58,7 +59,7 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
   auto D = state.work();          // (w x w)
   auto V = state.work_columns();  // (w x 3)
   if (!marginalise_landmarks(state, slots)) return false;
-  for (const int slot : slots) {  // zero but for rounding
+  for (const int slot : slots) {  // these links are zero except for rounding
     D.topRows<3>().middleCols<2>(InformationState::row_of(state.position(slot))).setZero();
   }
   const LLT3 Omega_xx(Eigen::Matrix3d(Omega.topLeftCorner<3, 3>()));
@@ -107,8 +108,8 @@ std::optional<Eigen::MatrixXd> window_marginal(const InformationState& state) {
   return state.Omega() - Omega_Pw.transpose() * llt.solve(Omega_Pw);
 }
 
-/// V = D P (w x 3) with the rigid-body modes P of the window as columns: both translations, and the rotation
-/// about the robot; each scaled to unit length. `scales` gets the lengths.
+/// V = D P (w x 3). The columns of P are the rigid-body modes of the window, scaled to unit length: the two
+/// translations, and the rotation about the robot. `scales` gets the lengths before scaling.
 void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const Eigen::MatrixXd>& D,
                           Columns V, Eigen::Vector3d& scales) {
   V = D.leftCols<3>();
@@ -126,7 +127,7 @@ void apply_to_rigid_modes(const InformationState& state, const Eigen::Ref<const 
   V = V * scales.cwiseInverse().asDiagonal();
 }
 
-/// P' V (3 x 3), with P as above.
+/// P' V (3 x 3), with P of apply_to_rigid_modes().
 Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Columns& V,
                                        const Eigen::Vector3d& scales) {
   Eigen::Matrix3d PtV = V.topRows<3>();
@@ -140,8 +141,8 @@ Eigen::Matrix3d project_on_rigid_modes(const InformationState& state, const Colu
   return scales.cwiseInverse().asDiagonal() * PtV;
 }
 
-/// D_f = D - D P (P' D P)^+ P' D. A mode about which D knows nothing has an eigenvalue of rounding size and of
-/// either sign: it is left alone.
+/// D_f = D - D P (P' D P)^+ P' D. If D has no information about a mode, its eigenvalue is not larger than
+/// rounding, with either sign. Such a mode is left as it is.
 void float_window(InformationState& state) {
   auto D = state.work();
   auto V = state.work_columns();

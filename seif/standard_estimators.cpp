@@ -16,7 +16,7 @@
 namespace seif {
 namespace {
 
-// What several estimators have.
+// Options that several estimators share.
 
 constexpr double most_links = 1000.0;  // [-]
 
@@ -95,7 +95,7 @@ std::vector<OptionSpec> with_association(std::vector<OptionSpec> specs) {
   return specs;
 }
 
-/// The filter itself where associations are known.
+/// Adds data association to a filter. Returns the filter itself if associations are known.
 std::unique_ptr<Estimator> associating(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
                                        const Options& options) {
   AssociationChoice choice = association_table().read(options);
@@ -115,7 +115,7 @@ EstimatorType type_of(std::string name, std::string help, const OptionTable<Stru
           }};
 }
 
-/// The same with data association.
+/// The same, with data association.
 template <class Filter, class Struct>
 EstimatorType associating_type_of(std::string name, std::string help, const OptionTable<Struct>& table) {
   return {.name = std::move(name),
@@ -151,7 +151,7 @@ EstimatorType seif_report() {
       "The report's SEIF in constant time, faithful to its sparsification rule and so overconfident.", table);
 }
 
-/// A SEIF that sparsifies at once, as the report's does, and solves for its mean.
+/// A SEIF that sparsifies at once, as the report's filter does, and solves for its mean exactly.
 EstimatorType seif_with_exact_mean(const std::string& name, const std::string& help,
                                    SparsificationRule rule) {
   return type_of<PlainSeif>(name, help,

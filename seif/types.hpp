@@ -20,7 +20,7 @@ namespace seif {
 using LandmarkId = std::int32_t;  // >= 0; given by the sensor, the report's known correspondence
 inline constexpr LandmarkId no_landmark = -1;
 
-/// The equal angle in (-pi, pi]. [rad]
+/// The same angle in (-pi, pi]. [rad]
 double wrap_angle(double angle);
 
 /// A rigid transform of the plane: T_a_b takes points of frame b into frame a.
@@ -38,13 +38,13 @@ Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b);
 
 Pose2 inverse(const Pose2& T_a_b);
 
-/// A pose and how well it is known.
+/// A pose and its covariance.
 struct PoseEstimate {
   Pose2 mean;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // (3 x 3) of [x y theta] [m, rad]
 };
 
-/// How the robot moved since the previous odometry, as its encoders tell.
+/// The motion of the robot since the previous odometry, measured by its wheel encoders.
 struct Odometry {
   double t = 0.0;            // [s] at the end of the increment
   Pose2 T_previous_current;  // the increment, in the robot frame of the previous one
@@ -59,7 +59,7 @@ struct Observation {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // (2 x 2) of [range bearing]; positive definite
 };
 
-/// All that the sensor saw at one moment; may be empty.
+/// All observations of one moment; may be empty.
 struct Scan {
   double t = 0.0;  // [s]
   std::vector<Observation> observations;

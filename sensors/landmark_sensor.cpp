@@ -59,8 +59,8 @@ void LandmarkSensor::scan(double t, const seif::Pose2& T_world_robot,
   for (seif::Observation& observation : scan.observations) observation.landmark = seif::no_landmark;
 }
 
-/// Measures a visible landmark. A missed one draws its noise too: what the stream gives to the next landmark
-/// then depends on what is visible alone.
+/// Measures a visible landmark. A missed landmark draws its noise, too: then the random numbers of the next
+/// landmark depend only on which landmarks are visible.
 void LandmarkSensor::detect(const LandmarkTruth& truth, double range, double bearing, seif::Scan& scan,
                             std::vector<seif::LandmarkId>& true_ids) {
   const bool missed = uniform_(random_) < options_.miss_probability;
@@ -72,8 +72,8 @@ void LandmarkSensor::detect(const LandmarkTruth& truth, double range, double bea
   if (missed) {
     return;
   }
-  // A range below zero is reflected. Drawing again would make the number of draws depend on their values, and
-  // clamping would put many ranges on zero itself, where the bearing has no meaning.
+  // A negative range is reflected. Drawing again would make the number of draws depend on their values.
+  // Clamping would put many ranges at exactly zero, where the bearing has no meaning.
   scan.observations.push_back(
       observation(truth.landmark, std::abs(range + range_error), seif::wrap_angle(bearing + bearing_error)));
   true_ids.push_back(truth.landmark);
@@ -83,8 +83,8 @@ void LandmarkSensor::detect(const LandmarkTruth& truth, double range, double bea
          static_cast<seif::LandmarkId>(which * static_cast<double>(options_.first_false_id))});
 }
 
-/// Each misread observation gets the first id from the drawn one on that nothing in the scan bears, so that
-/// no two bear the same; none if there is none.
+/// Each misread observation gets the first id, counted from the drawn one, that no other observation of the
+/// scan has, so that all ids stay different. If all ids are used, it keeps its own.
 void LandmarkSensor::misread_ids(seif::Scan& scan) const {
   const auto is_borne = [&](seif::LandmarkId id) {
     return std::ranges::find(scan.observations, id, &seif::Observation::landmark) != scan.observations.end();
@@ -97,10 +97,11 @@ void LandmarkSensor::misread_ids(seif::Scan& scan) const {
   }
 }
 
-/// Poisson many, uniform over the area of the field of view: the density of ranges grows with the range.
+/// The number is Poisson distributed; the positions are uniform over the area of the field of view, so the
+/// density of ranges grows with the range.
 void LandmarkSensor::detect_falsely(seif::Scan& scan, std::vector<seif::LandmarkId>& true_ids) {
   if (options_.false_detections == 0.0) {
-    return;  // the distribution is defined for a positive mean
+    return;  // the distribution needs a positive mean
   }
   const int count = std::poisson_distribution<int>(options_.false_detections)(random_);
   for (int i = 0; i < count; ++i) {
@@ -111,7 +112,7 @@ void LandmarkSensor::detect_falsely(seif::Scan& scan, std::vector<seif::Landmark
   }
 }
 
-/// With the covariance as a sensor can know it: from the range that it measured, not from the true one.
+/// The covariance is the one that a sensor can know: it uses the measured range, not the true one.
 seif::Observation LandmarkSensor::observation(seif::LandmarkId landmark, double range, double bearing) const {
   seif::Observation z;
   z.landmark = landmark;

@@ -1,4 +1,4 @@
-// Independent random streams, one for each (seed, name): drawing from one never shifts another.
+// Independent random streams, one for each (seed, name). Drawing from one stream does not change another.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace sensors {
 
-/// The engine of the stream `name` in the run `seed`: equal arguments give equal engines, on every machine.
+/// The random engine of the stream `name` in the run `seed`. Equal arguments give equal engines, on every
+/// machine.
 std::mt19937_64 random_stream(std::uint64_t seed, std::string_view name);
 
 }  // namespace sensors

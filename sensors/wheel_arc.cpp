@@ -13,8 +13,8 @@ struct Sinc {
 };
 
 Sinc sinc(double x) {
-  // Below this the terms that the series leave out, x^6 / 5040 and x^5 / 840, are under the rounding of what
-  // they would be added to, while the closed form of the derivative loses digits to cancellation.
+  // Below this the omitted terms of the series, x^6 / 5040 and x^5 / 840, are smaller than the rounding of the
+  // sum. The closed form of the derivative would lose digits to cancellation there.
   constexpr double series_below = 1e-3;
   if (std::abs(x) < series_below) {
     const double x2 = x * x;
@@ -29,7 +29,7 @@ Sinc sinc(double x) {
 WheelArc wheel_arc(const WheelDistances& distances, double track) {
   const double d = 0.5 * (distances.left + distances.right);
   const double turn = (distances.right - distances.left) / track;
-  // The chord of an arc of length d that turns by 2 h is d sin(h) / h long and leaves at the angle h.
+  // An arc of length d that turns by 2 h has a chord of length d sin(h) / h, which starts at the angle h.
   const double h = 0.5 * turn;
   const double c = std::cos(h);
   const double s = std::sin(h);

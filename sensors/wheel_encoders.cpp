@@ -50,7 +50,8 @@ seif::Odometry WheelEncoders::read(double t, double left_angle, double right_ang
   return odometry;
 }
 
-/// Takes the wheel to its new true angle; what the robot believes that it rolled since the last reading. [m]
+/// Moves the wheel to its new true angle. Returns the distance that the robot believes it rolled since the last
+/// reading. [m]
 double WheelEncoders::roll(Wheel& wheel, double angle) {
   const double distance = options_.wheel_radius * std::abs(angle - wheel.angle);
   wheel.error +=
@@ -63,8 +64,8 @@ double WheelEncoders::roll(Wheel& wheel, double angle) {
   return wheel.assumed_radius * increment;
 }
 
-/// Of the distance that a wheel rolled: a random walk along the way, and the rounding to a tick as uniform
-/// noise.
+/// The variance of the distance that a wheel rolled: a random walk along the way, and the rounding to a tick,
+/// as uniform noise.
 double WheelEncoders::variance(const Wheel& wheel, double distance) const {
   const double tick_length = tick_ * wheel.assumed_radius;
   return options_.distance_sd * options_.distance_sd * std::abs(distance) + tick_length * tick_length / 12.0;

@@ -1,6 +1,7 @@
 #include "sim/bullet_simulator.hpp"
 
 #include <stdexcept>
+#include <vector>
 
 #include "sim/drive_limits.hpp"
 #include "worlds/geometry.hpp"
@@ -32,7 +33,7 @@ void BulletSimulator::place(const worlds::Placement& T_world_robot) {
 
 RobotState BulletSimulator::robot() const {
   RobotState state = robot_.state();
-  state.t = static_cast<double>(steps_) / step_rate_;  // not a sum: no rounding gathers
+  state.t = static_cast<double>(steps_) / step_rate_;  // not a sum, so rounding does not accumulate
   return state;
 }
 

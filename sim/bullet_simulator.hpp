@@ -1,9 +1,13 @@
-// The world in Bullet: a robot with masses, motors and contacts, among solid things that hide each other.
+// The world in the Bullet physics engine: a robot with masses, motors and contacts, among solid things that
+// hide each other from the sensor.
 //
-// Two collision worlds. The stepped one holds the ground, the robot and the solid things near it, streamed in
-// and out as it moves; the sensing one holds every landmark and obstacle and is never stepped. So neither a
-// step nor a scan costs more in a world with more landmarks.
+// There are two collision worlds. The stepped one holds the ground, the robot and the solid things near it;
+// things are inserted and removed as the robot moves. The sensing one holds every landmark and obstacle and is
+// never stepped. So neither a step nor a scan costs more in a world with more landmarks.
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "sim/near_solids.hpp"
 #include "sim/robot_body.hpp"
@@ -29,7 +33,7 @@ class BulletSimulator final : public Simulator {
   SimulatorCounts counts() const override;
 
  private:
-  // Destroyed from the last to the first: what stands in the stepped world leaves it before it goes.
+  // Members are destroyed from the last to the first: things leave the stepped world before it is destroyed.
   int step_rate_;  // [Hz]
   Solids solids_;
   SensingWorld sensing_;

@@ -1,4 +1,4 @@
-// From what the robot is told to what its wheels are told.
+// Applies the limits of the robot to a command, and computes the wheel speeds.
 #pragma once
 
 #include "sim/simulator.hpp"
@@ -6,19 +6,18 @@
 
 namespace sim {
 
-/// Throws std::invalid_argument for a wheel radius, a track or a limit of speed or acceleration that is not
-/// positive.
+/// Throws std::invalid_argument if a wheel radius, a track or a limit of speed or acceleration is not positive.
 void check_drive(const worlds::Robot& robot);
 
-/// Throws std::invalid_argument for a place that is not finite.
+/// Throws std::invalid_argument if the place is not finite.
 void check_place(const worlds::Placement& T_world_robot);
 
-/// What a step of dt [s] makes of `wanted` after `previous`: speed and turn rate within their limits, and
-/// neither changed by more than its acceleration allows. Throws std::invalid_argument for one that is not
-/// finite.
+/// The command that the robot follows in a step of dt [s] if it is told `wanted` and followed `previous`
+/// before: speed and turn rate within their limits, and both changed by no more than their acceleration limits
+/// allow. Throws std::invalid_argument if `wanted` is not finite.
 Command limited(const Command& wanted, const Command& previous, const worlds::Robot& robot, double dt);
 
-/// How fast the wheels turn when they roll without slip. [rad/s]
+/// The speeds of the wheels when they roll without slip. [rad/s]
 struct WheelSpeeds {
   double left = 0.0;
   double right = 0.0;

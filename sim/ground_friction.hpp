@@ -1,4 +1,4 @@
-// How slippery the ground is where a wheel stands.
+// The friction of the ground where a wheel stands.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,8 @@
 
 namespace sim {
 
-/// The Coulomb coefficient [-] at a place: of the last patch that holds it, else of the ground.
+/// The Coulomb coefficient [-] at a place: that of the last patch that contains it, otherwise that of the
+/// ground.
 double ground_friction(const worlds::Physics& physics, const Eigen::Vector2d& p_world);
 
 }  // namespace sim

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "sim/drive_limits.hpp"
 #include "sim/planar_geometry.hpp"
@@ -12,8 +13,8 @@ namespace sim {
 
 namespace {
 
-/// The edge of the grid's cells: a scan looks at nine of them. A sensor that sees no further than its own
-/// feet still gets cells that a path does not cross by the thousand. [m]
+/// The edge of the grid's cells [m]. A scan examines nine cells. The edge is at least 1 m, even for a sensor of
+/// very short range, so that a path does not cross thousands of cells.
 double grid_cell(const worlds::World& world) {
   return std::max({1.0, world.landmark_sensor.max_range, worlds::largest_radius(world.landmarks)});
 }
@@ -42,7 +43,7 @@ void KinematicSimulator::step(const Command& command) {
   const double dt = 1.0 / step_rate_;
   const Command driven = limited(command, {state_.v, state_.omega}, robot_, dt);
   const WheelSpeeds speeds = wheel_speeds(driven, robot_);
-  // The chord of the step's arc leaves it at half of its turn.
+  // At its start, the chord of the arc deviates from the heading by half the turn.
   const double half_turn = 0.5 * driven.omega * dt;
   const double chord = driven.v * dt * (half_turn == 0.0 ? 1.0 : std::sin(half_turn) / half_turn);
   state_.position += chord * direction(state_.heading + half_turn);
@@ -78,7 +79,7 @@ void KinematicSimulator::landmarks_within(const Eigen::Vector2d& p_world, double
     return false;
   });
   std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());  // the grid may name a point twice
+  out.erase(std::unique(out.begin(), out.end()), out.end());  // the grid may report a point twice
 }
 
 bool KinematicSimulator::line_of_sight(const Eigen::Vector2d&, int landmark) const {

@@ -1,6 +1,9 @@
-// The world without bodies: the robot does what its limits make of the command, to the letter, and landmarks
-// are points that hide nothing and stop nothing. For runs by the thousand.
+// The world without rigid bodies. The robot follows its command exactly, within its limits. Landmarks are
+// points that hide nothing and stop nothing. Meant for thousands of runs.
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "sim/simulator.hpp"
 #include "worlds/point_grid.hpp"
@@ -12,18 +15,19 @@ class KinematicSimulator final : public Simulator {
   /// See make_simulator. The step rate is positive.
   explicit KinematicSimulator(const worlds::World& world);
 
-  /// The wheels roll without slip at the speeds that the limits of speed and acceleration allow: an exact
-  /// circular arc.
+  /// The wheels roll without slip, at the speeds that the limits of speed and acceleration allow. So the robot
+  /// moves on an exact circular arc.
   void step(const Command& command) override;
 
   void place(const worlds::Placement& T_world_robot) override;
   RobotState robot() const override;
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
 
-  /// Always.
+  /// Always true.
   bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const override;
 
-  /// Clear of the landmarks' disks: nothing would stop the robot, but who looks for a way goes round them.
+  /// Whether the path is clear of the landmarks' disks. Nothing would stop the robot there, but a planner that
+  /// asks for a path should go around landmarks.
   bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
                      double radius) const override;
 
@@ -35,7 +39,7 @@ class KinematicSimulator final : public Simulator {
   worlds::PointGrid landmarks_;
   std::vector<double> radii_;  // [m] of the landmarks
   double largest_radius_;      // [m]
-  RobotState state_;           // but for its time; the heading is unwrapped
+  RobotState state_;           // without its time; the heading is unwrapped
   std::int64_t steps_ = 0;     // [-]
   mutable std::int64_t candidates_ = 0;
 };

@@ -8,12 +8,12 @@ namespace sim {
 
 namespace {
 
-// Streaming costs a query and a few insertions. Once for each metre it is nothing beside the 240 steps and
-// more that the robot takes for it, and the square stays small enough for a step to cost little in a dense
+// Streaming costs one query and a few insertions. Once per metre this is negligible beside the 240 or more
+// steps that the robot needs for a metre, and the square stays small enough for a step to be cheap in a dense
 // forest.
 constexpr double travel_between_streams = 1.0;  // [m]
 
-// What the robot may do within one step (50 m/s at 240 Hz), and Bullet's contact margins.
+// The distance that the robot may move within one step (50 m/s at 240 Hz), and Bullet's contact margins.
 constexpr double reserve = 0.2;  // [m]
 
 }  // namespace
@@ -38,8 +38,8 @@ void NearSolids::follow(const Eigen::Vector2d& p_world_robot) {
   }
 }
 
-/// Takes out what is far and puts in what is new. What stays is not touched, so that a contact that lasts
-/// keeps what the solver knows of it.
+/// Takes out solids that are far and inserts new ones. A solid that stays is not touched, so that the solver
+/// keeps its data about lasting contacts.
 void NearSolids::stream(const Eigen::Vector2d& p_world_robot) {
   const Eigen::Vector2d reach(reach_, reach_);
   sensing_.solids_in_box(p_world_robot - reach, p_world_robot + reach, wanted_);
@@ -58,8 +58,8 @@ void NearSolids::stream(const Eigen::Vector2d& p_world_robot) {
   }
 }
 
-/// A new object, in a node of the map that was taken out before if there is one: in the long run nothing is
-/// allocated.
+/// A new object. It uses a map node that was taken out before, if there is one, so that nothing is allocated in
+/// the long run.
 btCollisionObject& NearSolids::new_object(int solid) {
   if (spare_.empty()) {
     return present_[solid];
@@ -76,7 +76,7 @@ void NearSolids::insert(int solid) {
   btCollisionObject& object = new_object(solid);
   object.setCollisionShape(&solids_.shape(solid));
   object.setWorldTransform(solids_.T_world_solid(solid));
-  // Bullet takes an object that it is handed for awake, and would compute its bounding box at every step.
+  // Bullet takes a new object as awake, and would compute its bounding box at every step.
   object.setActivationState(ISLAND_SLEEPING);
   stepped_.bullet().addCollisionObject(&object, CollisionGroup::solid, CollisionGroup::solid_meets);
 }

@@ -1,4 +1,4 @@
-// Keeps the solids near the robot in the stepped world, and no others.
+// Keeps the solids near the robot, and only these, in the stepped world.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -16,20 +16,20 @@ namespace sim {
 
 class NearSolids {
  public:
-  /// `footprint_radius` [m] is the largest distance of a point of the robot from its position.
-  /// Keeps references to all three.
+  /// `footprint_radius` [m] is the largest distance of a point of the robot from its position. Keeps references
+  /// to the first three arguments.
   NearSolids(const Solids& solids, const SensingWorld& sensing, SteppedWorld& stepped,
              double footprint_radius);
   ~NearSolids();
   NearSolids(const NearSolids&) = delete;
   NearSolids& operator=(const NearSolids&) = delete;
 
-  /// To be called before each step: all that the robot at p_world_robot can touch is in the stepped world
-  /// then.
+  /// To be called before each step. Afterwards everything that the robot at p_world_robot can touch is in the
+  /// stepped world.
   void follow(const Eigen::Vector2d& p_world_robot);
 
  private:
-  using Present = std::map<int, btCollisionObject>;  // by solid: the same order in every run
+  using Present = std::map<int, btCollisionObject>;  // sorted by solid: the same order in every run
 
   void stream(const Eigen::Vector2d& p_world_robot);
   void insert(int solid);
@@ -38,10 +38,10 @@ class NearSolids {
   const Solids& solids_;
   const SensingWorld& sensing_;
   SteppedWorld& stepped_;
-  double reach_;                                     // [m] half size of the square that is kept filled
-  std::optional<Eigen::Vector2d> p_world_streamed_;  // where the robot was when it was filled
+  double reach_;                                     // [m] half the side of the square that is streamed in
+  std::optional<Eigen::Vector2d> p_world_streamed_;  // where the robot was at the last streaming
   Present present_;
-  std::vector<Present::node_type> spare_;  // of objects that were taken out
+  std::vector<Present::node_type> spare_;  // map nodes of objects that were taken out
   std::vector<int> wanted_;
 };
 

@@ -17,12 +17,13 @@ double distance_to_point(const Segment& way, const Eigen::Vector2d& point) {
   return (way.start + share * along - point).norm();
 }
 
-/// From a point to the rectangle of the given half size around the origin, 0 inside.
+/// Distance from a point to the rectangle of the given half size around the origin; 0 inside.
 double distance_to_rectangle(const Eigen::Vector2d& point, const Eigen::Vector2d& half_size) {
   return (point.cwiseAbs() - half_size).cwiseMax(0.0).norm();
 }
 
-/// Whether the way meets the rectangle around the origin: clipped by its two slabs, something is left of it.
+/// Whether the path meets the rectangle around the origin: whether a part of it is left after clipping it by
+/// the rectangle's two slabs.
 bool meets_rectangle(const Segment& way, const Eigen::Vector2d& half_size) {
   double enter = 0.0;
   double leave = 1.0;
@@ -50,7 +51,7 @@ Eigen::Vector2d direction(double heading) { return {std::cos(heading), std::sin(
 
 double heading_of(const Eigen::Vector2d& vector) {
   const double heading = std::atan2(vector.y(), vector.x());
-  // atan2 of (-0, -1) is -pi, which the convention leaves out.
+  // atan2(-0, -1) is -pi, which the convention excludes.
   return heading <= -std::numbers::pi ? std::numbers::pi : heading;
 }
 
@@ -66,7 +67,7 @@ double distance(const Segment& way, const Rectangle& rectangle) {
   if (meets_rectangle(way_box, half)) {
     return 0.0;
   }
-  // Two convex polygons apart are nearest at a corner of one of them.
+  // Two separate convex polygons are nearest at a corner of one of them.
   double nearest =
       std::min(distance_to_rectangle(way_box.start, half), distance_to_rectangle(way_box.end, half));
   for (const double x : {-half.x(), half.x()}) {

@@ -1,4 +1,4 @@
-// Headings, and distances on the plane between a straight way and what stands on it.
+// Headings, and distances in the plane between a straight path and solids.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ Eigen::Vector2d direction(double heading);
 /// The heading of a vector that is not zero. [rad] in (-pi, pi]
 double heading_of(const Eigen::Vector2d& vector);
 
-/// A straight way; start and end may be one point.
+/// A straight path; start and end may be the same point.
 struct Segment {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  // p_world [m]
   Eigen::Vector2d end = Eigen::Vector2d::Zero();    // p_world [m]
@@ -24,11 +24,11 @@ struct Disk {
 
 struct Rectangle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();     // p_world [m]
-  double heading = 0.0;                                 // [rad] of its own x
-  Eigen::Vector2d half_size = Eigen::Vector2d::Zero();  // [m] along its own x and y
+  double heading = 0.0;                                 // [rad] of its own x axis
+  Eigen::Vector2d half_size = Eigen::Vector2d::Zero();  // [m] along its own axes
 };
 
-/// Shortest distance from the way to the solid, 0 if they touch or cross. [m]
+/// Shortest distance from the path to the solid; 0 if they touch or cross. [m]
 double distance(const Segment& way, const Disk& disk);
 double distance(const Segment& way, const Rectangle& rectangle);
 

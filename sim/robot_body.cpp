@@ -14,9 +14,9 @@ namespace sim {
 
 namespace {
 
-// Of the way from the axle to the caster. 30 % of the weight on the caster keep the robot from tipping under
-// full brakes (at 0.3 * 0.18 m / 0.1 m * g = 5 m/s^2 with the standard robot) and leave the wheels their
-// grip.
+// The centre of mass, as a fraction of the distance from the axle to the caster. With 30 % of the weight on the
+// caster, the robot does not tip under full brakes (up to 0.3 * 0.18 m / 0.1 m * g = 5 m/s^2 with the standard
+// robot), and the wheels keep their grip.
 constexpr double centre_of_mass_share = 0.3;
 
 worlds::Robot checked(const worlds::Robot& robot) {
@@ -37,7 +37,7 @@ btTransform T_world_robot(const worlds::Placement& start) {
                      btVector3(start.position.x(), start.position.y(), 0.0));
 }
 
-/// The chassis' centre of mass and origin; as high as the axle.
+/// The chassis' centre of mass and origin, at the height of the axle.
 btVector3 p_robot_chassis(const worlds::Robot& robot) {
   return btVector3(centre_of_mass_share * robot.caster.offset, 0.0, robot.wheel_radius);
 }
@@ -60,7 +60,7 @@ btRigidBody make_chassis(const worlds::Robot& robot, btCompoundShape& shape, con
   return make_body(mass, shape, inertia, T_world_robot(robot.start) * T_robot_chassis);
 }
 
-/// A solid disk about its y axis.
+/// The inertia of a solid disk about its y axis.
 btVector3 wheel_inertia(const worlds::Robot& robot) {
   const double r2 = robot.wheel_radius * robot.wheel_radius;
   const double width = worlds::wheel_width(robot);
@@ -72,7 +72,7 @@ btVector3 wheel_inertia(const worlds::Robot& robot) {
 
 ChassisBox chassis_box(const worlds::Robot& robot) {
   const worlds::Footprint footprint = worlds::footprint(robot);
-  // Below the axle and above the ground: if the robot tips, this edge slides on the ground and holds it.
+  // Below the axle and above the ground: if the robot tips, this edge slides on the ground and supports it.
   const double bottom = 0.5 * std::min(robot.wheel_radius, robot.caster.radius);
   return {btVector3(footprint.min.x(), footprint.min.y(), bottom),
           btVector3(footprint.max.x(), footprint.max.y(), 2.0 * robot.wheel_radius)};
@@ -83,7 +83,8 @@ RobotBody::Wheel::Wheel(const worlds::Robot& robot, btSphereShape& shape, btRigi
     : body(make_body(robot.wheel_mass, shape, wheel_inertia(robot),
                      btTransform(chassis.getWorldTransform().getBasis(),
                                  chassis.getWorldTransform() * p_chassis_wheel))),
-      // The wheel comes first: the joint then turns forwards about +y, the axle to the left.
+      // The wheel is the first body of the joint: it then turns forwards about +y, the axle's direction to the
+      // left.
       hinge(body, chassis, btVector3(0.0, 0.0, 0.0), p_chassis_wheel, btVector3(0.0, 1.0, 0.0),
             btVector3(0.0, 1.0, 0.0)) {
   wrapped_angle = hinge.getHingeAngle();
@@ -118,7 +119,8 @@ RobotBody::RobotBody(const worlds::Robot& robot, const worlds::Physics& physics,
   };
   add(box_shape_, 0.5 * (box.min + box.max));
   add(caster_shape_, btVector3(robot.caster.offset, 0.0, robot.caster.radius));
-  // One body, one coefficient: the caster rolls freely, and the shell slides along what it bumps into.
+  // A body has one coefficient of friction. With zero, the caster rolls freely, and the chassis slides along
+  // the things that it hits.
   chassis_.setFriction(0.0);
   chassis_.setActivationState(DISABLE_DEACTIVATION);
   world_.addRigidBody(&chassis_, CollisionGroup::chassis, CollisionGroup::chassis_meets);
@@ -148,7 +150,7 @@ void RobotBody::drive(const Command& command, double dt) {
   right_.hinge.enableAngularMotor(true, speeds.right, impulse);
   for (Wheel* wheel : {&left_, &right_}) {
     const btVector3& p = wheel->body.getWorldTransform().getOrigin();
-    // Contacts with a plane take the coefficient anew at every step.
+    // Contacts with a plane read the coefficient again at every step.
     wheel->body.setFriction(ground_friction(physics_, {p.x(), p.y()}));
   }
 }
@@ -175,7 +177,7 @@ void RobotBody::move(btRigidBody& body, const btTransform& T_new_old) {
   body.setCenterOfMassTransform(T_world_body);
   body.setInterpolationLinearVelocity(v);
   body.setInterpolationAngularVelocity(omega);
-  // Contacts know where they were.
+  // Contacts store old positions, so they are removed.
   world_.getBroadphase()->getOverlappingPairCache()->cleanProxyFromPairs(body.getBroadphaseProxy(),
                                                                          world_.getDispatcher());
   world_.updateSingleAabb(&body);

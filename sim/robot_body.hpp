@@ -1,12 +1,12 @@
 // The robot's bodies, joints and motors.
 //
-// A chassis on two driven wheels and a caster. The robot frame has its origin on the ground under the middle
-// of the axle. Three choices make the encoders read what a real robot's would:
-//  - A wheel touches the ground with a sphere. A cylinder scrubs on an edge that wanders, and reads a 20 rad
-//    spin wrong by 2 to 7 %.
-//  - A wheel hangs on a hinge with a motor. btRaycastVehicle computes the wheels' turning from the chassis:
-//    its encoders would never see slip.
-//  - A motor is limited by the impulse that it may give in a step, torque times dt.
+// A chassis on two driven wheels and a caster. The origin of the robot frame is on the ground below the middle
+// of the axle. Three choices make the encoders read what a real robot's encoders would read:
+// - A wheel touches the ground with a sphere. A cylinder would touch it with a point of its edge that moves about;
+//   it reads a turn of 20 rad on the spot wrong by 2 to 7 %.
+// - A wheel is fixed to the chassis by a hinge with a motor. btRaycastVehicle computes the wheels' turning from
+//   the chassis: its encoders would never see slip.
+// - A motor is limited by the impulse that it may give in a step, torque times dt.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -19,8 +19,8 @@
 
 namespace sim {
 
-/// The chassis in the robot frame: a box that covers the wheels and the caster from above, so that it is what
-/// bumps into things.
+/// The chassis in the robot frame: a box that covers the wheels and the caster from above, so that the chassis
+/// is the part that collides with things.
 struct ChassisBox {
   btVector3 min;  // [m]
   btVector3 max;  // [m]
@@ -29,26 +29,26 @@ ChassisBox chassis_box(const worlds::Robot& robot);
 
 class RobotBody {
  public:
-  /// Puts the robot at its start, at rest. Keeps a reference to the world.
-  /// Throws std::invalid_argument for a mass, length or limit that is not positive.
+  /// Puts the robot at its start, at rest. Keeps a reference to the world. Throws std::invalid_argument if a
+  /// mass, length or limit is not positive.
   RobotBody(const worlds::Robot& robot, const worlds::Physics& physics, SteppedWorld& world);
   ~RobotBody();
   RobotBody(const RobotBody&) = delete;
   RobotBody& operator=(const RobotBody&) = delete;
 
-  /// To be called before each step of dt [s]: sets the motors and what the wheels stand on.
-  /// Throws std::invalid_argument for a command that is not finite.
+  /// To be called before each step of dt [s]. Sets the motors, and the friction of the ground below the wheels.
+  /// Throws std::invalid_argument if the command is not finite.
   void drive(const Command& command, double dt);
 
-  /// To be called after each step: follows the joint angles over their wrap at +-pi.
+  /// To be called after each step. Follows the joint angles when they wrap at +-pi.
   void read_joints();
 
-  /// Moves all bodies as one, with their velocities: as if the world had moved under the robot.
+  /// Moves all bodies together, with their velocities: as if the world had moved under the robot.
   void place(const worlds::Placement& T_world_robot);
 
   Eigen::Vector2d position() const;
 
-  /// The state but for its time.
+  /// The state without its time.
   RobotState state() const;
 
  private:
@@ -61,7 +61,7 @@ class RobotBody {
     btRigidBody body;
     btHingeConstraint hinge;
     double wrapped_angle = 0.0;  // [rad] in [-pi, pi]
-    double turns = 0.0;          // [-] whole
+    double turns = 0.0;          // [-] whole turns
   };
 
   void add_to_world(Wheel& wheel);
@@ -77,7 +77,7 @@ class RobotBody {
   btRigidBody chassis_;
   Wheel left_;
   Wheel right_;
-  Command command_;  // after the limits
+  Command command_;  // after the limits were applied
 };
 
 }  // namespace sim

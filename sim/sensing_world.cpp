@@ -13,7 +13,7 @@ int index_of(const btBroadphaseProxy& proxy) {
   return static_cast<const btCollisionObject*>(proxy.m_clientObject)->getUserIndex();
 }
 
-/// Gathers the solids that the tree of bounding boxes hands out.
+/// Collects the solids that the tree of bounding boxes reports.
 struct Gather : btBroadphaseAabbCallback {
   explicit Gather(std::vector<int>& into) : out(into) {}
   bool process(const btBroadphaseProxy* proxy) override {
@@ -23,20 +23,20 @@ struct Gather : btBroadphaseAabbCallback {
   std::vector<int>& out;
 };
 
-/// Whether anything but the target is in the way.
+/// Whether the ray hits anything except the target.
 struct AnyOtherHit : btCollisionWorld::RayResultCallback {
   explicit AnyOtherHit(int target_landmark) : target(target_landmark) {}
   bool needsCollision(btBroadphaseProxy* proxy) const override { return index_of(*proxy) != target; }
   btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool) override {
     m_collisionObject = result.m_collisionObject;
-    m_closestHitFraction = 0.0;  // one hit is enough: Bullet tests no further object
+    m_closestHitFraction = 0.0;  // one hit is enough: Bullet then tests no other object
     return m_closestHitFraction;
   }
   int target;
 };
 
-/// No contact is ever computed here, so the pools of contacts, megabytes by default, are kept at their
-/// smallest.
+/// No contact is ever computed here, so the pools of contacts, which take megabytes by default, get their
+/// smallest size.
 btDefaultCollisionConstructionInfo without_contacts() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 1;
@@ -60,7 +60,7 @@ SensingWorld::SensingWorld(const Solids& solids)
     object.setUserIndex(i);
     world_.addCollisionObject(&object, btBroadphaseProxy::StaticFilter, btBroadphaseProxy::AllFilter);
   }
-  broadphase_.optimize();  // one balanced tree, top down, instead of what the order of insertion gave
+  broadphase_.optimize();  // builds one balanced tree; insertion one by one gives a worse one
 }
 
 SensingWorld::~SensingWorld() = default;
@@ -73,7 +73,7 @@ void SensingWorld::solids_in_box(const Eigen::Vector2d& min, const Eigen::Vector
   const_cast<btDbvtBroadphase&>(broadphase_)
       .aabbTest(btVector3(min.x(), min.y(), 0.0), btVector3(max.x(), max.y(), 0.0), gather);
   counts_.candidates += static_cast<std::int64_t>(out.size());
-  std::sort(out.begin(), out.end());  // the tree's order means nothing
+  std::sort(out.begin(), out.end());  // the tree's order has no meaning
 }
 
 void SensingWorld::landmarks_within(const Eigen::Vector2d& p_world, double radius,
@@ -92,7 +92,7 @@ bool SensingWorld::line_of_sight(const Eigen::Vector2d& p_world_sensor, int land
   if (range <= target.radius) {
     return true;
   }
-  // Bullet's ray does not notice a convex shape that it starts in.
+  // Bullet's ray ignores a convex shape that it starts in.
   if (!piece_is_clear({p_world_sensor, p_world_sensor}, 0.0, landmark)) {
     return false;
   }
@@ -105,7 +105,8 @@ bool SensingWorld::line_of_sight(const Eigen::Vector2d& p_world_sensor, int land
 }
 
 bool SensingWorld::path_is_clear(const Segment& way, double radius) const {
-  // The bounding box of a long slanting way would hold much that is far from it: it is asked about in pieces.
+  // The bounding box of a long diagonal path would contain many solids that are far from it, so the path is
+  // tested in pieces.
   constexpr double longest_piece = 4.0;  // [m]
   const Eigen::Vector2d along = way.end - way.start;
   const int pieces = std::max(1, static_cast<int>(std::ceil(along.norm() / longest_piece)));
@@ -119,7 +120,7 @@ bool SensingWorld::path_is_clear(const Segment& way, double radius) const {
   return true;
 }
 
-/// Exact distances on the plane decide: Bullet's convex sweep would report a start in contact as free.
+/// Exact distances in the plane decide: Bullet's convex sweep would report a start in contact as free.
 bool SensingWorld::piece_is_clear(const Segment& piece, double radius, int ignored) const {
   const Eigen::Vector2d reach(radius, radius);
   solids_in_box(piece.start.cwiseMin(piece.end) - reach, piece.start.cwiseMax(piece.end) + reach, nearby_);

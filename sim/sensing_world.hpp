@@ -1,8 +1,8 @@
-// The world of landmarks and obstacles that is asked and never stepped.
+// The collision world of all landmarks and obstacles. It answers queries and is never stepped.
 //
-// Bullet walks every collision object at each step, static and far ones too (18 us at 100 objects, 19 ms at
-// 100,000), while a ray or a box in its tree of bounding boxes costs the same at any number. So everything
-// solid stands here, and only what is near the robot stands in the stepped world as well.
+// At each step Bullet visits every collision object, static and distant ones too (18 us at 100 objects, 19 ms
+// at 100,000). A ray or a box query in its tree of bounding boxes costs the same at any number. So everything
+// solid is in this world, and only the things near the robot are in the stepped world as well.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -18,13 +18,13 @@
 
 namespace sim {
 
-/// The work that queries did so far.
+/// The work of all queries so far.
 struct QueryCounts {
   std::int64_t rays = 0;        // [-] rays cast
-  std::int64_t candidates = 0;  // [-] solids that a query around a point looked at
+  std::int64_t candidates = 0;  // [-] solids that the queries around a point examined
 };
 
-/// Not thread-safe, const or not: Debian's Bullet shares one stack between the rays of a world.
+/// Not thread-safe, not even the const functions: Debian's Bullet shares one stack between the rays of a world.
 class SensingWorld {
  public:
   /// Keeps a reference to the solids.
@@ -33,17 +33,17 @@ class SensingWorld {
   SensingWorld(const SensingWorld&) = delete;
   SensingWorld& operator=(const SensingWorld&) = delete;
 
-  /// The solids whose bounding boxes meet the axis-aligned one, ascending; replaces what `out` held.
+  /// The solids whose bounding boxes overlap the axis-aligned box, ascending; replaces the content of `out`.
   void solids_in_box(const Eigen::Vector2d& min, const Eigen::Vector2d& max, std::vector<int>& out) const;
 
-  /// The landmarks whose centres are within `radius` [m], ascending; replaces what `out` held.
+  /// The landmarks whose centres are within `radius` [m], ascending; replaces the content of `out`.
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const;
 
-  /// Whether a ray from p_world_sensor to the landmark's near face meets nothing else. From within the
-  /// landmark it is free; from within something else nothing is seen.
+  /// Whether a ray from p_world_sensor to the near face of the landmark hits nothing else. True if the sensor
+  /// is inside the landmark; false if it is inside another solid.
   bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const;
 
-  /// Whether everything solid is further than `radius` [m] from the way.
+  /// Whether all solids are farther than `radius` [m] from the path.
   bool path_is_clear(const Segment& way, double radius) const;
 
   const QueryCounts& counts() const { return counts_; }
@@ -54,11 +54,11 @@ class SensingWorld {
   const Solids& solids_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
-  btNullPairCache no_pairs_;  // nothing moves here: pairs that overlap are of no interest
+  btNullPairCache no_pairs_;  // nothing moves here, so overlapping pairs are not needed
   btDbvtBroadphase broadphase_;
-  std::deque<btCollisionObject> objects_;  // the world holds pointers to them, and follows them when it goes
+  std::deque<btCollisionObject> objects_;  // the world points to them, and is destroyed before them
   btCollisionWorld world_;
-  mutable std::vector<int> nearby_;  // scratch of the queries
+  mutable std::vector<int> nearby_;  // scratch memory of the queries
   mutable QueryCounts counts_;
 };
 

@@ -1,5 +1,5 @@
-// The physical truth: a differential-drive robot, and what stands around it. What the rest of the program
-// sees of it is this; the world says which engine is behind it.
+// The physical truth: a differential-drive robot and its surroundings. The rest of the program sees only this
+// interface; the world file says which engine implements it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace sim {
 
-/// What the robot is told: its limits and its motors decide what it does.
+/// What the robot is told to do. Its limits and motors decide what it does.
 struct Command {
   double v = 0.0;      // [m/s] forward
   double omega = 0.0;  // [rad/s] counter-clockwise
@@ -28,42 +28,43 @@ struct RobotState {
   double omega = 0.0;                                  // [rad/s]
 };
 
-/// The work done so far: what must not grow with the number of landmarks.
+/// The work done so far. It must not grow with the number of landmarks.
 struct SimulatorCounts {
   std::int64_t steps = 0;            // [-] physics steps
   std::int64_t objects_stepped = 0;  // [-] collision objects in the stepped world, summed over the steps
   std::int64_t rays = 0;             // [-] rays cast
-  std::int64_t candidates = 0;       // [-] objects looked at by the queries around a point
+  std::int64_t candidates = 0;       // [-] objects that the queries around a point examined
 };
 
-/// One simulated world. Same world, same build: same bits. Not thread-safe; one thread for each.
+/// One simulated world. The same world and build give the same bits. Not thread-safe: use each simulator in one
+/// thread.
 class Simulator {
  public:
   virtual ~Simulator() = default;
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  /// Advances the world by one physics step, 1 / step_rate. Throws std::invalid_argument for a command that
-  /// is not finite.
+  /// Advances the world by one physics step, 1 / step_rate. Throws std::invalid_argument if the command is not
+  /// finite.
   virtual void step(const Command& command) = 0;
 
-  /// Puts the robot somewhere else, as it moves now: its speeds in its own frame stay, and so do its wheels'
-  /// angles. Throws std::invalid_argument for a place that is not finite.
+  /// Puts the robot at another place while it moves: its speeds in its own frame stay, and so do its wheels'
+  /// angles. Throws std::invalid_argument if the place is not finite.
   virtual void place(const worlds::Placement& T_world_robot) = 0;
 
   virtual RobotState robot() const = 0;
 
-  /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces what `out`
-  /// held.
+  /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces the content
+  /// of `out`.
   virtual void landmarks_within(const Eigen::Vector2d& p_world, double radius,
                                 std::vector<int>& out) const = 0;
 
-  /// Whether nothing but the landmark itself stands between p_world_sensor and the near face of that
-  /// landmark. Throws std::out_of_range for an index that no landmark has.
+  /// Whether nothing except the landmark itself is between p_world_sensor and the near face of that landmark.
+  /// Throws std::out_of_range if no landmark has this index.
   virtual bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const = 0;
 
-  /// Whether a disk of `radius` [m] can be swept from one point to the other without touching a landmark or
-  /// an obstacle, at the start or later.
+  /// Whether a disk of `radius` [m] can move straight from one point to the other without touching a landmark
+  /// or an obstacle, its start included.
   virtual bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
                              double radius) const = 0;
 
@@ -73,9 +74,9 @@ class Simulator {
   Simulator() = default;
 };
 
-/// The engine that the world asks for; it copies what it needs of the world. Throws std::invalid_argument for
-/// what the engine cannot work with: a step rate, mass, length or limit that is not positive, a wall of fewer
-/// than two points, and in the kinematic one any obstacle or patch.
+/// Makes the engine that the world names; the engine copies what it needs of the world. Throws
+/// std::invalid_argument for values that the engine cannot use: a step rate, mass, length or limit that is not
+/// positive, a wall of fewer than two points, and in the kinematic engine any obstacle or patch.
 std::unique_ptr<Simulator> make_simulator(const worlds::World& world);
 
 }  // namespace sim

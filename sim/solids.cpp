@@ -7,7 +7,7 @@ namespace sim {
 
 namespace {
 
-/// The one shape of a size, made when first asked for.
+/// The shape of this size. It is made when first asked for.
 template <class Shape, class Size>
 Shape& shared(std::map<Size, std::unique_ptr<Shape>>& shapes, const Size& size,
               const btVector3& half_extents) {
@@ -18,8 +18,8 @@ Shape& shared(std::map<Size, std::unique_ptr<Shape>>& shapes, const Size& size,
   return *shape;
 }
 
-/// Motion and sight are planar, whatever height is drawn: nothing passes over or under a solid. One metre,
-/// and more for a robot that is itself tall; the solids stand as deep below the ground as above it.
+/// Motion and sight are planar, whatever height is drawn: nothing passes over or under a solid. The height is
+/// one metre, or more for a tall robot. The solids reach as far below the ground as above it.
 double tall_enough(const worlds::Robot& robot) {
   return 1.0 + 4.0 * (robot.wheel_radius + robot.caster.radius);
 }
@@ -58,8 +58,8 @@ void Solids::add_rectangle(const Rectangle& rectangle) {
   shapes_.push_back(&shared(boxes_, {half.x(), half.y()}, btVector3(half.x(), half.y(), half_height_)));
 }
 
-/// Segments reach half a thickness beyond the points that they share: so corners are filled, and no ray slips
-/// through between two segments in line.
+/// Segments reach half a thickness beyond the points that they share. So corners are filled, and no ray passes
+/// between two segments in line.
 void Solids::add_wall(const worlds::Wall& wall) {
   const std::size_t points = wall.points.size();
   if (points < 2) {

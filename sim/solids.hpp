@@ -17,17 +17,17 @@ namespace sim {
 
 class Solids {
  public:
-  /// Throws std::invalid_argument for a size that is not positive or a wall of fewer than two points.
+  /// Throws std::invalid_argument for a size that is not positive, or a wall of fewer than two points.
   explicit Solids(const worlds::World& world);
 
   int size() const { return static_cast<int>(disks_.size() + rectangles_.size()); }
   bool is_landmark(int solid) const { return solid < static_cast<int>(disks_.size()); }
   const Disk& landmark(int landmark) const { return disks_[static_cast<std::size_t>(landmark)]; }
 
-  /// Shortest distance on the plane, 0 if they touch. [m]
+  /// Shortest distance in the plane; 0 if they touch. [m]
   double distance_to(int solid, const Segment& way) const;
 
-  /// The solid's shape, one for all of the same size, and where it stands.
+  /// The solid's shape, shared by all solids of the same size, and its position.
   btCollisionShape& shape(int solid) const { return *shapes_[static_cast<std::size_t>(solid)]; }
   btTransform T_world_solid(int solid) const;
 

@@ -1,4 +1,4 @@
-// The world that Bullet steps: the ground, and what the others put into it.
+// The world that Bullet steps: the ground, the robot, and the solids near it.
 #pragma once
 
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
@@ -7,12 +7,12 @@
 
 namespace sim {
 
-/// Who meets whom. The wheels and the chassis overlap and so must ignore each other; a wheel's contact shape
-/// bulges beyond the wheel (see robot_body.hpp), so it meets the ground alone and the chassis bumps into
-/// things for it.
+/// Which groups collide. Wheels and chassis overlap, and so must ignore each other. A wheel's contact shape is
+/// larger than the wheel (see robot_body.hpp), so it collides with the ground only; in its place the chassis
+/// collides with things.
 struct CollisionGroup {
   static constexpr int ground = btBroadphaseProxy::StaticFilter;
-  static constexpr int solid = 1 << 6;  // 1 << 5 is the last that Bullet uses itself
+  static constexpr int solid = 1 << 6;  // Bullet itself uses the groups up to 1 << 5
   static constexpr int chassis = 1 << 7;
   static constexpr int wheel = 1 << 8;
 
@@ -24,7 +24,7 @@ struct CollisionGroup {
 
 class SteppedWorld {
  public:
-  /// `robot_mass` [kg] of all that will move in it.
+  /// `robot_mass` [kg]: of everything that will move in this world.
   explicit SteppedWorld(double robot_mass);
   ~SteppedWorld();
   SteppedWorld(const SteppedWorld&) = delete;

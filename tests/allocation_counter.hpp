@@ -3,7 +3,7 @@
 
 #include <cstddef>  // defines __GLIBC__
 
-// The sanitizers of addresses and threads have a malloc of their own.
+// The address and thread sanitizers have their own malloc.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
 #define COUNTS_ALLOCATIONS 0
 #else

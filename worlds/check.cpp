@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "worlds/check_faults.hpp"
@@ -15,14 +16,14 @@
 namespace worlds {
 namespace {
 
-/// Whether one path is the other or leads to it.
+/// Whether the two paths are equal, or one leads to the other.
 bool on_one_path(std::string_view a, std::string_view b) {
   const std::string_view shorter = a.size() < b.size() ? a : b;
   const std::string_view longer = a.size() < b.size() ? b : a;
   return longer.starts_with(shorter) && (longer.size() == shorter.size() || longer[shorter.size()] == '.');
 }
 
-/// Where the solid things of a world stand in its file, in the order of solid_rectangles.
+/// The paths in the document of the solid things of a world, in the order of solid_rectangles.
 std::vector<std::string> names_of_solids(const World& world) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < world.boxes.size(); ++i) names.push_back(fmt::format("obstacles.boxes.{}", i));
@@ -33,7 +34,7 @@ std::vector<std::string> names_of_solids(const World& world) {
   return names;
 }
 
-/// A check of one world: what it is about, and where problems go.
+/// The check of one world, and the list that gets its problems.
 struct Check {
   const Node& document;
   const World& world;
@@ -64,7 +65,7 @@ void check_rates(const Check& check) {
   check_rate("sensors.landmark_sensor.rate_hz", check.world.landmark_sensor.rate);
 }
 
-/// What has no effect in the kinematic engine is refused there.
+/// Refuses settings that have no effect in the kinematic engine.
 void check_engine(const Check& check) {
   const Physics& physics = check.world.physics;
   if (!check.sound({"physics.engine"}) || physics.engine != Engine::kinematic) return;
@@ -90,7 +91,7 @@ void check_pose_source(const Check& check) {
                            suggestion(name, names)));
 }
 
-/// What is filmed must run.
+/// The estimators that are filmed must run.
 void check_film(const Check& check) {
   if (!check.sound({"film.estimators", "estimators"})) return;
   std::vector<std::string> names;
@@ -129,7 +130,7 @@ void check_start(const Check& check) {
   }
 }
 
-/// Corners of the path first, then its legs: a leg is only worth a word if both of its ends are good.
+/// Checks the corners of the path first, then its legs. A leg is only reported if both of its ends are good.
 void check_path(const Check& check) {
   const Drive& drive = check.world.drive;
   if (drive.path.empty() || !check.sound({"drive", "robot", "ground", "obstacles"})) return;

@@ -12,7 +12,7 @@
 namespace worlds {
 namespace {
 
-/// Why the robot cannot be put there; empty if it can.
+/// Why the robot cannot be put at p; empty if it can.
 std::string what_blocks(const Eigen::Vector2d& p, const World& world) {
   const double reach = footprint_radius(world.robot);
   if (!on_ground(p, reach, world.ground_size)) return "off the ground";

@@ -8,8 +8,8 @@
 
 namespace worlds {
 
-/// Checks where the robot is put, as far as that is not generated, and that outliers are less than half a
-/// turn.
+/// Checks that a kidnapped robot is put on the ground and clear of obstacles and of the landmarks placed by
+/// hand (generated landmarks are not checked), and that outliers are less than half a turn.
 void check_faults(const Node& document, const World& world, std::vector<Problem>& problems);
 
 }  // namespace worlds

@@ -9,14 +9,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace worlds {
 namespace {
 
-constexpr double largest_value = 1e6;  // of any column: beyond any run
+constexpr double largest_value = 1e6;  // in any column; no run needs larger values
 constexpr std::array<const char*, 3> columns = {"t", "v", "omega"};
 
-/// The row's numbers, or a message in their place.
+/// The row's numbers, or nothing and a message.
 std::optional<VelocityCommand> parse_row(std::string_view row, std::string& message) {
   std::array<double, columns.size()> values{};
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -9,8 +9,8 @@
 
 namespace worlds {
 
-/// Reads a CSV file with the head `t,v,omega` [s, m/s, rad/s]. The times are at least 0 and grow from row to
-/// row. Adds a problem for each row that is wrong; what comes back counts only if there is none.
+/// Reads a CSV file with the header `t,v,omega` [s, m/s, rad/s]. The times start at 0 or later and grow from
+/// row to row. Adds a problem for each row that is wrong; use the result only if there is no problem.
 std::vector<VelocityCommand> read_commands(const std::filesystem::path& file, std::vector<Problem>& problems);
 
 }  // namespace worlds

@@ -1,4 +1,4 @@
-// Degrees exist in world files alone: everything else is in radians.
+// Only world files use degrees; everything else is in radians.
 #pragma once
 
 #include <numbers>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include "worlds/describe_fault.hpp"
@@ -14,7 +15,7 @@
 namespace worlds {
 namespace {
 
-// Limits that keep a slip of the finger from asking for more than a machine has.
+// Limits that stop a typing mistake from asking for more than a machine has.
 constexpr double largest_height = 1e3;             // [m]
 constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
 constexpr double largest_landmark_radius = 100;    // [m] of a landmark
@@ -83,13 +84,15 @@ void describe_physics(Fields& fields, Physics& physics) {
                   "bullet: rigid bodies that touch and hide each other; kinematic, for many fast runs: exact "
                   "arcs, no slip, landmarks that are points, no obstacles or patches");
   fields.integer("step_rate_hz", physics.step_rate, between(50, highest_step_rate), "physics steps");
-  fields.number("friction", physics.friction, between(0, 10), "between wheels and ground");
+  fields.number("friction", physics.friction, between(0, 10),
+                "friction coefficient between wheels and ground");
   fields.list(
       "patches", physics.patches,
       [](Fields& inner, FrictionPatch& patch) {
         inner.vector2("min_m", patch.min, coordinate(), "lower left corner", Need::required);
         inner.vector2("max_m", patch.max, coordinate(), "upper right corner", Need::required);
-        inner.number("friction", patch.friction, between(0, 10), "between wheels and ground");
+        inner.number("friction", patch.friction, between(0, 10),
+                     "friction coefficient between wheels and ground");
         check_corners(inner, patch.min, patch.max);
       },
       "rectangles of the ground with a friction of their own; the later one counts");
@@ -105,17 +108,15 @@ void describe_landmark(Fields& fields, Landmark& landmark) {
 void describe_region(Fields& fields, Generator& generator, const Eigen::Vector2d& ground_size) {
   generator.min = -0.5 * ground_size;
   generator.max = 0.5 * ground_size;
-  fields.section("region", "where the landmarks stand; the whole ground if it is not said",
-                 [&](Fields& inner) {
-                   inner.vector2("min_m", generator.min, coordinate(), "lower left corner", Need::optional);
-                   inner.vector2("max_m", generator.max, coordinate(), "upper right corner", Need::optional);
-                   check_corners(inner, generator.min, generator.max);
-                   const Eigen::Array2d edge = 0.5 * ground_size.array();
-                   if (inner.sound() &&
-                       ((generator.min.array() < -edge).any() || (generator.max.array() > edge).any())) {
-                     inner.problem("", "the region must lie on the ground");
-                   }
-                 });
+  fields.section("region", "where the landmarks stand; by default the whole ground", [&](Fields& inner) {
+    inner.vector2("min_m", generator.min, coordinate(), "lower left corner", Need::optional);
+    inner.vector2("max_m", generator.max, coordinate(), "upper right corner", Need::optional);
+    check_corners(inner, generator.min, generator.max);
+    const Eigen::Array2d edge = 0.5 * ground_size.array();
+    if (inner.sound() && ((generator.min.array() < -edge).any() || (generator.max.array() > edge).any())) {
+      inner.problem("", "the region must lie on the ground");
+    }
+  });
 }
 
 void describe_count(Fields& fields, Generator& generator) {
@@ -135,11 +136,12 @@ void describe_fixed_places(Fields& fields, Generator& generator) {
 }
 
 void describe_corridor(Fields& fields, Generator& generator) {
-  fields.points("points_m", generator.points, coordinate(), 2,
-                "the line; the path of the drive if it is not said", Need::optional);
-  fields.boolean("closed", generator.closed, "from the last point back to the first");
-  fields.number("offset_m", generator.offset, more_than(0), "from the line to the landmarks on either side");
-  fields.number("spacing_m", generator.spacing, more_than(0), "along the line");
+  fields.points("points_m", generator.points, coordinate(), 2, "the line; by default the path of the drive",
+                Need::optional);
+  fields.boolean("closed", generator.closed, "whether it also runs from the last point back to the first");
+  fields.number("offset_m", generator.offset, more_than(0),
+                "distance from the line to the landmarks on either side");
+  fields.number("spacing_m", generator.spacing, more_than(0), "distance between landmarks along the line");
   describe_fixed_places(fields, generator);
 }
 
@@ -188,15 +190,18 @@ void describe_generator(Fields& fields, Generator& generator, const Eigen::Vecto
                 "radius of each landmark");
   fields.integer("max_tries", generator.max_tries, between(1, most_tries), "tries to place each landmark");
   fields.section("clear_m", "how far the surface of a landmark stays from other things", [&](Fields& inner) {
-    inner.number("walls", generator.clear.walls, at_least(0), "from the surfaces of walls and boxes");
-    inner.number("path", generator.clear.path, at_least(0), "from the line that the robot is meant to drive");
-    inner.number("landmarks", generator.clear.landmarks, at_least(0), "from the surfaces of other landmarks");
+    inner.number("walls", generator.clear.walls, at_least(0),
+                 "least distance from the surfaces of walls and boxes");
+    inner.number("path", generator.clear.path, at_least(0),
+                 "least distance from the path that the robot is meant to drive");
+    inner.number("landmarks", generator.clear.landmarks, at_least(0),
+                 "least distance from the surfaces of other landmarks");
   });
 }
 
 void describe_box(Fields& fields, Box& box) {
   describe_placement(fields, box.centre, Need::required);
-  fields.vector2("size_m", box.size, more_than_up_to(0, largest_ground), "along its own x and y",
+  fields.vector2("size_m", box.size, more_than_up_to(0, largest_ground), "size along its own x and y",
                  Need::required);
   fields.number("height_m", box.height, more_than_up_to(0, largest_height), "height");
 }
@@ -205,7 +210,7 @@ void describe_wall(Fields& fields, Wall& wall) {
   fields.points("points_m", wall.points, coordinate(), 2, "corners", Need::required);
   fields.number("thickness_m", wall.thickness, more_than_up_to(0, largest_ground), "thickness");
   fields.number("height_m", wall.height, more_than_up_to(0, largest_height), "height");
-  fields.boolean("closed", wall.closed, "from the last point back to the first");
+  fields.boolean("closed", wall.closed, "whether it also runs from the last point back to the first");
   const std::size_t expected = wall.points.size() - (wall.closed ? 0 : 1);
   if (fields.sound() && !wall.points.empty() && legs(wall.points, wall.closed).size() != expected) {
     fields.problem("points_m", wall.closed
@@ -216,7 +221,7 @@ void describe_wall(Fields& fields, Wall& wall) {
 
 void describe_pursuit(Fields& fields, Drive& drive) {
   fields.number("speed_m_s", drive.speed, more_than(0), "cruising speed");
-  fields.number("lookahead_m", drive.lookahead, more_than(0), "of the pure pursuit");
+  fields.number("lookahead_m", drive.lookahead, more_than(0), "lookahead distance of the pure pursuit");
 }
 
 void describe_waypoints(Fields& fields, Drive& drive, bool closed) {
@@ -236,7 +241,7 @@ void describe_serpentine(Fields& fields, Drive& drive, SerpentineArea& area) {
   fields.vector2("min_m", area.min, coordinate(), "lower left corner of the area", Need::required);
   fields.vector2("max_m", area.max, coordinate(), "upper right corner of the area", Need::required);
   fields.number("lane_m", area.lane, more_than(0), "at most, from lane to lane");
-  fields.boolean("closed", drive.closed, "back to the first lane, and again");
+  fields.boolean("closed", drive.closed, "whether the robot drives back to the first lane and begins again");
   check_corners(fields, area.min, area.max);
   if (fields.sound() && area.max.y() - area.min.y() > most_lanes * area.lane) {
     fields.problem("lane_m", fmt::format("these are more than {} lanes", most_lanes));
@@ -256,7 +261,7 @@ std::vector<Fields::Case> drive_cases(Drive& drive, SerpentineArea& area) {
        [&](Fields& fields) {
          describe_pursuit(fields, drive);
          fields.number("clearance_m", drive.clearance, more_than(0),
-                       "from the robot's centre to anything solid");
+                       "least distance from the robot's centre to anything solid");
        }},
       {"commands", "recorded velocities",
        [&](Fields& fields) {
@@ -287,9 +292,9 @@ void describe_encoders(Fields& fields, Encoders& encoders) {
                 "right over left wheel diameter, actual over assumed");
   fields.number("track_ratio", encoders.track_ratio, between(0.5, 2), "actual over assumed track");
   fields.number("diameter_ratio_sd", encoders.diameter_ratio_sd, between(0, 0.1),
-                "of the part of the diameter ratio that is drawn from the seed");
+                "standard deviation of the part of the diameter ratio that is drawn from the seed");
   fields.number("track_ratio_sd", encoders.track_ratio_sd, between(0, 0.1),
-                "of the part of the track ratio that is drawn from the seed");
+                "standard deviation of the part of the track ratio that is drawn from the seed");
   fields.boolean("calibrated", encoders.calibrated, "no systematic error, whatever the ratios say");
 }
 
@@ -299,11 +304,11 @@ void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
   fields.section("mount", "where the sensor sits on the robot, from the middle of the axle",
                  [&](Fields& inner) { describe_placement(inner, sensor.mount, Need::defaulted); });
   fields.number("max_range_m", sensor.max_range, more_than_up_to(0, largest_ground),
-                "to a landmark's centre");
+                "largest distance to a landmark's centre at which it is seen");
   fields.angle("fov_deg", sensor.fov, more_than_up_to(0, 360), "full angle, centred on the sensor's x");
   fields.number("range_sd_m", sensor.range_sd, more_than(0), "standard deviation of a range");
   fields.number("range_sd_per_m", sensor.range_sd_per_m, at_least(0),
-                "what is added to it for each metre of range, in quadrature");
+                "what each metre of range adds to the standard deviation, in quadrature");
   fields.angle("bearing_sd_deg", sensor.bearing_sd, more_than(0), "standard deviation of a bearing");
   fields.number("miss_probability", sensor.miss_probability, between(0, 1),
                 "that a visible landmark is not reported");
@@ -332,9 +337,9 @@ void describe_estimator(Fields& fields, EstimatorChoice& choice, const Estimator
   fields.variant("type", choice.type, cases, "kind of estimator; by default its name",
                  names_a_type ? Need::defaulted : Need::required);
   fields.number("odometry_sd_factor", choice.odometry_sd_factor, more_than(0),
-                "what it believes of the odometry's noise, over what the sensor says");
+                "odometry noise that the filter assumes, over that of the sensor");
   fields.number("observation_sd_factor", choice.observation_sd_factor, more_than(0),
-                "what it believes of the observations' noise, over what the sensor says");
+                "observation noise that the filter assumes, over that of the sensor");
   const std::string hint = suggestion(choice.name, types);
   if (!names_a_type && choice.type.empty() && !hint.empty()) {
     fields.problem("", fmt::format("'{}' is no type of estimator{}", choice.name, hint));
@@ -344,7 +349,7 @@ void describe_estimator(Fields& fields, EstimatorChoice& choice, const Estimator
 void describe_estimators(Fields& fields, World& world, const EstimatorSchemas& schemas) {
   NameRule rule{{"truth", "odometry"}, {}};
   for (const auto& [type, describe] : schemas) rule.known.push_back(type);
-  fields.named("estimators", rule, "what runs, by names of your own",
+  fields.named("estimators", rule, "the estimators that run, by names of your own",
                [&](Fields& inner, const std::string& name) {
                  EstimatorChoice choice;
                  choice.name = name;
@@ -354,12 +359,11 @@ void describe_estimators(Fields& fields, World& world, const EstimatorSchemas& s
 }
 
 void describe_scoring(Fields& fields, Scoring& scoring) {
-  fields.number("interval_s", scoring.interval, more_than(0),
-                "between the times at which consistency is scored");
+  fields.number("interval_s", scoring.interval, more_than(0), "time between two scorings of consistency");
   fields.integer("landmark_sample", scoring.landmark_sample, at_least(1),
                  "landmarks that are scored for consistency, at the most");
   fields.number("rpe_interval_s", scoring.rpe_interval, more_than(0),
-                "over which the relative pose error is taken");
+                "time over which the relative pose error is taken");
 }
 
 void describe_camera(Fields& fields, Film& film) {
@@ -394,22 +398,22 @@ void describe_film(Fields& fields, Film& film) {
 
 void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& estimators) {
   World& world = file.world;
-  fields.text("name", world.name, "the file's name if it is not said");
-  fields.text("description", world.description, "one sentence");
+  fields.text("name", world.name, "name of the world; by default the file's name");
+  fields.text("description", world.description, "one sentence on what the world shows");
   fields.text("seifbed_version", file.version, "the program that resolved this file", Need::optional);
-  fields.integer("seed", world.seed, at_least(0), "of everything that is random");
-  fields.number("duration_s", world.duration, more_than_up_to(0, longest_duration), "of the run");
+  fields.integer("seed", world.seed, at_least(0), "seed of all random numbers");
+  fields.number("duration_s", world.duration, more_than_up_to(0, longest_duration), "length of the run");
   fields.section("ground", "the ground, centred on the origin", [&](Fields& inner) {
-    inner.vector2("size_m", world.ground_size, between(1, largest_ground), "along x and y");
+    inner.vector2("size_m", world.ground_size, between(1, largest_ground), "size along x and y");
   });
   fields.section("robot", "the robot", [&](Fields& inner) { describe_robot(inner, world.robot); });
   fields.section("physics", "the physics", [&](Fields& inner) { describe_physics(inner, world.physics); });
   fields.section("landmarks", "what the sensor sees", [&](Fields& inner) {
-    inner.list("placed", world.landmarks, describe_landmark, "by hand; they come first");
+    inner.list("placed", world.landmarks, describe_landmark, "landmarks placed by hand; they come first");
     inner.list(
         "generators", file.generators,
         [&](Fields& item, Generator& generator) { describe_generator(item, generator, world.ground_size); },
-        "by rule and chance, in this order");
+        "landmarks placed by a rule, in this order");
   });
   fields.section("obstacles", "what blocks motion and sight", [&](Fields& inner) {
     inner.list("boxes", world.boxes, describe_box, "boxes");
@@ -423,13 +427,14 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
     inner.section("landmark_sensor", "range and bearing of landmarks",
                   [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
   });
-  fields.list("faults", world.faults, describe_fault, "what goes wrong on purpose, each at its time");
-  fields.section(
-      "start_estimate", "standard deviations of the start that the estimators are given", [&](Fields& inner) {
-        inner.number("x_sd_m", world.start_estimate.x_sd, more_than(0), "of x");
-        inner.number("y_sd_m", world.start_estimate.y_sd, more_than(0), "of y");
-        inner.angle("heading_sd_deg", world.start_estimate.heading_sd, more_than(0), "of the heading");
-      });
+  fields.list("faults", world.faults, describe_fault, "faults injected on purpose, each at its time");
+  fields.section("start_estimate", "standard deviations of the start that the estimators are given",
+                 [&](Fields& inner) {
+                   inner.number("x_sd_m", world.start_estimate.x_sd, more_than(0), "standard deviation of x");
+                   inner.number("y_sd_m", world.start_estimate.y_sd, more_than(0), "standard deviation of y");
+                   inner.angle("heading_sd_deg", world.start_estimate.heading_sd, more_than(0),
+                               "standard deviation of the heading");
+                 });
   describe_estimators(fields, world, estimators);
   fields.section("scoring", "how the run is scored",
                  [&](Fields& inner) { describe_scoring(inner, world.scoring); });

@@ -1,4 +1,4 @@
-// The one description of world files.
+// The description of world files. The reader, the schema and the defaults all come from this one.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace worlds {
 struct SerpentineArea {
   Eigen::Vector2d min = Eigen::Vector2d::Constant(-5);  // [m]
   Eigen::Vector2d max = Eigen::Vector2d::Constant(5);   // [m]
-  double lane = 2.0;                                    // [m] at most, from lane to lane
+  double lane = 2.0;                                    // [m] between lanes, at most
 };
 
-/// What a world file says, before paths are laid out, command files read and landmarks generated.
+/// The content of a world file, before paths are laid out, command files read and landmarks generated.
 struct WorldFile {
   World world;
   std::vector<Generator> generators;
   SerpentineArea area;
-  std::string version;  // of the program that resolved it; empty if none did
+  std::string version;  // of the program that resolved the file; empty for a file that is not resolved
 };
 
 /// Describes all sections of a world file.

@@ -1,4 +1,4 @@
-// What descriptions of several sections share.
+// What the descriptions of several sections share.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace worlds {
 inline constexpr double longest_duration = 1e6;  // [s]
 inline constexpr double largest_ground = 1e5;    // [m]
 
-/// The enumerator whose name stands at its own index. The first one for a name that is none: that was a
-/// problem.
+/// The enumerator whose name is `name`; names[i] is the name of enumerator i. An unknown name gives the first
+/// enumerator: the reader has reported it as a problem.
 template <class Enum, std::size_t N>
 Enum enum_of(const std::array<std::string_view, N>& names, std::string_view name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -38,7 +38,7 @@ void describe_choice(Fields& fields, std::string_view key, Enum& value,
   value = enum_of<Enum>(names, name);
 }
 
-/// Where something can be.
+/// The range of a coordinate.
 inline Range coordinate() { return between(-largest_ground, largest_ground); }
 
 void describe_placement(Fields& fields, Placement& placement, Need need);

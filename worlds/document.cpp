@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -22,7 +23,7 @@ namespace {
 
 using Source = std::shared_ptr<const std::string>;
 
-/// Ends the parsing of a document that would not fit in memory or on the stack.
+/// Thrown to end the parsing of a document that would not fit in memory or on the stack.
 struct GivenUp {
   YAML::Mark mark;
   std::string message;
@@ -35,7 +36,7 @@ std::size_t count_nodes(const Node& node) {
   return count;
 }
 
-/// Builds the tree from yaml-cpp's events. Its own tree would let duplicate keys pass and forget about
+/// Builds the tree from yaml-cpp's events. yaml-cpp's own tree accepts duplicate keys, and does not keep the
 /// quotes.
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -80,7 +81,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  struct Frame {  // a map or a list that is not complete yet
+  struct Frame {  // a map or list that is not yet complete
     Node node;
     YAML::Mark mark;
     YAML::anchor_t anchor = YAML::NullAnchor;
@@ -132,7 +133,7 @@ class TreeBuilder : public YAML::EventHandler {
     add(frame.mark, frame.anchor, std::move(frame.node));
   }
 
-  /// Puts a complete value where it belongs.
+  /// Adds a complete value to the map or list that holds it.
   void add(const YAML::Mark& mark, YAML::anchor_t anchor, Node node) {
     count(mark, 1);
     if (anchor != YAML::NullAnchor) {
@@ -185,7 +186,7 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
   if (lead < 0xC2 || lead > 0xF4) return 0;
   unsigned lowest =
-      0x80;  // of the second byte: keeps out overlong forms, surrogates, and what lies beyond U+10FFFF
+      0x80;  // of the second byte: excludes overlong forms, surrogates, and characters beyond U+10FFFF
   unsigned highest = 0xBF;
   if (lead == 0xE0) lowest = 0xA0;
   if (lead == 0xED) highest = 0x9F;
@@ -198,7 +199,7 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   return length;
 }
 
-/// yaml-cpp would guess at other encodings; here there is one.
+/// yaml-cpp would guess other encodings; here only UTF-8 is allowed.
 bool check_encoding(std::string_view text, const Source& source, std::vector<Problem>& problems) {
   Location here{source, 1, 1};
   for (std::size_t at = 0; at < text.size();) {
@@ -218,14 +219,14 @@ bool check_encoding(std::string_view text, const Source& source, std::vector<Pro
 
 constexpr const char* unclosed = "a quote, a list or a map is not closed before the end";
 
-/// yaml-cpp takes a quote that is never closed for one that ends with the text. The sign of a document's end
-/// cannot stand inside of a quote.
+/// Adds an end-of-document marker to the text. yaml-cpp takes a quote that is never closed as closed at the end
+/// of the text. The marker cannot stand inside a quote, so such a quote becomes an error.
 std::string with_end(std::string_view text) {
   const bool is_line = text.empty() || text.back() == '\n';
   return std::string(text) + (is_line ? "...\n" : "\n...\n");
 }
 
-/// Whether there is nothing but space and comments.
+/// Whether the text holds only white space and comments.
 bool is_void(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
@@ -236,7 +237,8 @@ bool is_void(std::string_view text) {
   return true;
 }
 
-/// As much of a file as may be parsed, and a byte more where there is more. Nothing if it cannot be read.
+/// Reads as much of a file as may be parsed, and one byte more if there is more. Nothing if the file cannot be
+/// read.
 std::optional<std::string> read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text(limits().bytes + 1, '\0');

@@ -1,4 +1,4 @@
-// What the robot is told to do.
+// The drive: how the robot is told to move.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@ namespace worlds {
 
 enum class DriveMode { hold, waypoints, loop, serpentine, explore, commands };
 
-/// A velocity command that holds from its time until the next one's.
+/// A velocity command. It holds from its time until the time of the next one.
 struct VelocityCommand {
   double t = 0.0;      // [s]
   double v = 0.0;      // [m/s]
@@ -18,14 +18,14 @@ struct VelocityCommand {
 
 struct Drive {
   DriveMode mode = DriveMode::hold;
-  std::string pose_from = "truth";        // whose pose steers: truth, odometry, or an estimator's name
+  std::string pose_from = "truth";        // the pose that steers: truth, odometry, or an estimator's name
   double speed = 0.6;                     // [m/s] cruising
-  double lookahead = 0.6;                 // [m] of the pure pursuit
+  double lookahead = 0.6;                 // [m] of the pure pursuit controller
   std::vector<Eigen::Vector2d> path;      // waypoints, loop and serpentine: the polyline to follow [m]
-  bool closed = false;                    // the path is driven round and round
+  bool closed = false;                    // the path is driven again and again
   double clearance = 0.5;                 // [m] explore: from the robot's centre to anything solid
   std::vector<VelocityCommand> commands;  // commands: in the order of time
-  std::string commands_file;              // commands: where they were read from, resolved
+  std::string commands_file;              // commands: the file with its resolved path
 };
 
 }  // namespace worlds

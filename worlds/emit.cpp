@@ -12,7 +12,7 @@ bool is_plain(std::string_view text) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '.' || c == '-' || c == '+' || c == '/';
   };
-  const bool is_null = text == "null" || text == "Null" || text == "NULL";  // would be no key, and no text
+  const bool is_null = text == "null" || text == "Null" || text == "NULL";  // would be read as null
   return !text.empty() && !is_null && text != "-" && text.find("---") != 0 && text.find("...") != 0 &&
          std::all_of(text.begin(), text.end(), is_safe);
 }
@@ -38,7 +38,7 @@ std::string quote(std::string_view text) {
 
 bool is_leaf(const Node& node) { return node.items.empty() && node.entries.empty(); }
 
-/// Small things stand in one line: values, points, and maps and lists of nothing but values.
+/// Small things are written in one line: values, points, and maps and lists that hold only values.
 bool fits_a_line(const Node& node) {
   constexpr std::size_t longest = 8;
   const bool plain_items = std::all_of(node.items.begin(), node.items.end(), is_leaf);
@@ -99,7 +99,7 @@ void emit_block(const Node& node, std::size_t indent, std::string& out) {
     } else {
       std::string block;
       emit_block(item, indent + 2, block);
-      out += std::string_view(block).substr(indent + 2);  // its first line stands behind the dash
+      out += std::string_view(block).substr(indent + 2);  // its first line follows the dash
     }
   }
 }

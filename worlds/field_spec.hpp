@@ -1,4 +1,4 @@
-// What a description says of one field: its key, its range, whether it may be missing.
+// The description of one field: its key, its range, whether it may be missing.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace worlds {
 
-/// The numbers that are allowed, in the unit of the key. All of them are finite.
+/// The numbers that are allowed, in the unit of the key. They must be finite.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool excludes_min = false;
-  double multiple_of = 0.0;  // [-] 0: of anything
+  double multiple_of = 0.0;  // [-] 0: any number
 };
 
 inline Range any_number() { return {}; }
@@ -26,28 +26,28 @@ inline Range more_than_up_to(double min, double max) {
 }
 inline Range even_between(double min, double max) { return {.min = min, .max = max, .multiple_of = 2}; }
 
-/// What it means that a key is missing.
+/// What happens if a key is missing.
 enum class Need {
-  defaulted,  // the default holds, and the reader writes it into the document
+  defaulted,  // the default is used, and the reader writes it into the document
   optional,   // the value stays as it is, and nothing is written
-  required,   // a problem
+  required,   // it is a problem
 };
 
-/// One value with a key of its own.
+/// The description of one value.
 struct FieldSpec {
   std::string_view key;
   std::string_view help;
   Need need = Need::defaulted;
   Range range = {};                       // numbers
   std::vector<std::string> choices = {};  // texts; empty: any
-  std::size_t min_count = 0;              // lists of points
-  std::size_t max_count = 0;              // lists of names
+  std::size_t min_count = 0;              // lists of points: the fewest points
+  std::size_t max_count = 0;              // lists of names: the most names
 };
 
-/// Which names a map of named things may have: [A-Za-z0-9_-]+, and none that is reserved.
+/// The names that a map of named things may use: [A-Za-z0-9_-]+, except the reserved ones.
 struct NameRule {
   std::vector<std::string> reserved;
-  std::vector<std::string> known;  // names that mean something by themselves: the schema describes each
+  std::vector<std::string> known;  // names with a fixed meaning: the schema describes each of them
 };
 
 }  // namespace worlds

@@ -13,9 +13,9 @@
 namespace worlds {
 namespace {
 
-/// The shortest number of degrees that is read as exactly these radians, if there is one.
+/// The shortest number of degrees that is read back as exactly these radians, if there is one.
 double to_degrees(double radians) {
-  constexpr int most_digits = 17;  // of which every double can be told apart
+  constexpr int most_digits = 17;  // enough to distinguish all doubles
   for (int digits = 1; digits <= most_digits; ++digits) {
     const std::string text = fmt::format("{:.{}g}", radians / degree, digits);
     double degrees = 0.0;
@@ -113,7 +113,7 @@ std::string_view unit_of_key(std::string_view key) {
 }
 
 std::string suggestion(std::string_view written, const std::vector<std::string>& choices) {
-  constexpr std::size_t longest = 64;  // beyond this it is no slip of the finger
+  constexpr std::size_t longest = 64;  // longer texts are not typing mistakes
   if (written.size() > longest) return "";
   std::size_t nearest = written.size() / 3 + 2;
   const std::string* best = nullptr;

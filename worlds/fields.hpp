@@ -1,4 +1,4 @@
-// One description of a document, and what follows from it: a strict reader that fills in the defaults, and a
+// A document is described once. From the description come a strict reader, which fills in the defaults, and a
 // schema.
 //
 //   void describe(Fields& fields, Caster& caster) {
@@ -6,9 +6,9 @@
 //     fields.number("radius_m", caster.radius, more_than(0), "radius");
 //   }
 //
-// A description says the same whatever the values are: it is run by the reader and by the schema's writer
-// alike. What a value holds before is its default. The unit of a number stands at the end of its key (`_m`,
-// `_deg_s`).
+// A description must ask for the same fields whatever the values are: the reader and the writer of the schema
+// both run it. The value of a variable before the call is the default of its field. The end of a key tells the
+// unit of a number (`_m`, `_deg_s`).
 #pragma once
 
 #include <Eigen/Core>
@@ -28,11 +28,11 @@
 
 namespace worlds {
 
-/// See the head of the file. Functions that take `describe` hand it the fields of the inner map.
+/// See the head of the file. Functions that take `describe` call it with the fields of the inner map.
 class Fields {
  public:
-  /// One of several kinds of section. The keys of those that are not chosen are asked for before the chosen
-  /// one is read: a description writes nothing but the values that it describes.
+  /// One of several kinds of section. The keys of all other kinds are asked for before the chosen kind is read,
+  /// so a description must write only to the values that it describes.
   struct Case {
     std::string name;
     std::string help;
@@ -45,7 +45,7 @@ class Fields {
   void number(std::string_view key, double& value, const Range& range, std::string_view help,
               Need need = Need::defaulted);
 
-  /// A number in degrees (or degrees per ...), kept in radians. `range` is in degrees.
+  /// A number in degrees (or degrees per ...), stored in radians. `range` is in degrees.
   void angle(std::string_view key, double& radians, const Range& range_deg, std::string_view help,
              Need need = Need::defaulted);
 
@@ -72,23 +72,23 @@ class Fields {
   void choice(std::string_view key, std::string& value, const std::vector<std::string>& choices,
               std::string_view help, Need need = Need::defaulted);
 
-  /// [x, y], each of them in the range.
+  /// [x, y], both in the range.
   void vector2(std::string_view key, Eigen::Vector2d& value, const Range& range, std::string_view help,
                Need need = Need::defaulted);
 
-  /// [x, y, z], each of them in the range.
+  /// [x, y, z], all in the range.
   void vector3(std::string_view key, Eigen::Vector3d& value, const Range& range, std::string_view help,
                Need need = Need::defaulted);
 
-  /// [[x, y], ...], at least `min_count` of them, all numbers in the range.
+  /// [[x, y], ...], at least `min_count` points, all numbers in the range.
   void points(std::string_view key, std::vector<Eigen::Vector2d>& value, const Range& range,
               std::size_t min_count, std::string_view help, Need need = Need::defaulted);
 
-  /// [name, ...], at most `max_count` of them, each once.
+  /// [name, ...], at most `max_count` different names.
   void names(std::string_view key, std::vector<std::string>& value, std::size_t max_count,
              std::string_view help, Need need = Need::defaulted);
 
-  /// An inner map. One that is missing is read as an empty one: its own required keys are then missing.
+  /// An inner map. A missing one is read as an empty map, so its required keys are problems.
   virtual void section(std::string_view key, std::string_view help,
                        const std::function<void(Fields&)>& describe) = 0;
 
@@ -104,17 +104,16 @@ class Fields {
   virtual void named(std::string_view key, const NameRule& rule, std::string_view help,
                      const std::function<void(Fields&, const std::string& name)>& describe) = 0;
 
-  /// The kind of this section, and the keys of that kind. Keys of other kinds are problems that say so.
-  /// With Need::required there is no default kind.
+  /// The kind of this section, and the keys of that kind. A key of another kind is a problem, and its message
+  /// says so. With Need::required there is no default kind.
   virtual void variant(std::string_view key, std::string& kind, const std::vector<Case>& cases,
                        std::string_view help, Need need = Need::defaulted) = 0;
 
-  /// Whether everything described so far was read without a problem: then values can be checked against each
-  /// other.
+  /// Whether everything described so far was read without a problem. Only then can values be checked against
+  /// each other.
   virtual bool sound() const = 0;
 
-  /// Something that is wrong with the value of a key (empty: with the whole section). Nothing but the reader
-  /// listens.
+  /// Adds a problem with the value of a key (empty: with the whole section). Only the reader uses it.
   virtual void problem(std::string_view key, std::string message) = 0;
 
  protected:
@@ -127,16 +126,16 @@ class Fields {
                             const std::function<void(Fields&, std::size_t)>& describe) = 0;
 };
 
-/// Reads a document strictly, as described: adds all that is wrong to `problems` and writes the defaults of
-/// what is missing into the document. True if there was no problem; otherwise values with a problem keep
-/// their defaults.
+/// Reads a document as described. Adds everything that is wrong to `problems`, and writes the defaults of
+/// missing keys into the document. True if there was no problem. Values with a problem keep their defaults.
 bool read_fields(Node& document, const std::function<void(Fields&)>& describe,
                  std::vector<Problem>& problems);
 
-/// The unit that the end of a key tells, as in "m/s"; empty if it tells none.
+/// The unit that the end of a key tells, as in "m/s"; empty if the key tells no unit.
 std::string_view unit_of_key(std::string_view key);
 
-/// " (did you mean 'x'?)" with the choice that is nearest to what was written; empty if none is near.
+/// " (did you mean 'x'?)" with the choice that is most similar to what was written; empty if no choice is
+/// similar.
 std::string suggestion(std::string_view written, const std::vector<std::string>& choices);
 
 }  // namespace worlds

@@ -1,4 +1,4 @@
-// How a run is filmed.
+// The settings of a film of a run.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,27 +8,27 @@
 namespace worlds {
 
 enum class FilmCamera {
-  overview,  // the whole ground, from a height
+  overview,  // the whole ground, from above
   chase,     // behind the robot
   orbit,     // round the robot
-  top,       // straight down on the robot, north up
+  top,       // straight down on the robot, north at the top
   fixed,     // from eye to target
 };
 
-/// What a film of a run shows.
+/// The layers that a film of a run shows.
 struct FilmLayers {
-  bool grid = true;        // on the ground
+  bool grid = true;        // lines on the ground
   bool shadows = true;     //
-  bool rays = true;        // of the latest scan, free and occluded
-  bool range = true;       // what the sensor covers
-  bool truth = true;       // trail of the robot
+  bool rays = true;        // lines of sight of the latest scan, free and occluded
+  bool range = true;       // the area that the sensor covers
+  bool truth = true;       // trail of the true robot
   bool odometry = true;    // trail of dead reckoning
   bool estimate = true;    // trail and present pose of each estimator
   bool landmarks = true;   // estimates of landmarks
   bool ellipses = true;    // 2-sigma ellipses of landmarks and robot
-  bool errors = true;      // from each estimate to the truth
+  bool errors = true;      // lines from each estimate to the truth
   bool active = true;      // landmarks that have a link to the robot
-  bool links = true;       // between landmarks
+  bool links = true;       // links between landmarks
   bool matrix = true;      // normalised information matrix, or covariance
   bool times = true;       // chart of update times
   bool pose_error = true;  // chart of pose errors with their 3-sigma bands
@@ -40,11 +40,11 @@ struct Film {
   int width = 1280;    // [px] even
   int height = 720;    // [px] even
   int fps = 30;        // [1/s] of film time
-  double speed = 0.0;  // [-] simulated over film time; 0: so that the film takes 40 s at the most
+  double speed = 0.0;  // [-] simulated time / film time; 0: chosen so that the film takes 40 s at most
   FilmCamera camera = FilmCamera::overview;
   Eigen::Vector3d eye = {-15, -15, 12};  // [m] of the fixed camera
   Eigen::Vector3d target = {0, 0, 0};    // [m] of the fixed camera
-  std::vector<std::string> estimators;   // one or two names; none: seif and ekf if they run, or the first two
+  std::vector<std::string> estimators;  // one or two names; empty: seif and ekf if they run, or the first two
   FilmLayers layers;
 };
 

@@ -1,4 +1,4 @@
-// The layers of a film by name: for world files and for the command line.
+// The layers of a film by name, for world files and for the command line.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Where a landmark can stand: a query whose cost does not grow with the number of landmarks or walls.
+// Finds out where a landmark can stand. The cost of a query does not grow with the number of landmarks or
+// walls.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +13,7 @@
 
 namespace worlds {
 
-/// How far the surface of a landmark stays from other things.
+/// The least distances from the surface of a landmark to other things.
 struct Clearances {
   double walls = 0.3;      // [m] from the surfaces of walls and boxes
   double path = 0.6;       // [m] from the line that the robot is meant to drive
@@ -22,11 +23,11 @@ struct Clearances {
 /// The part of a world that is free for landmarks of one size.
 class FreeSpace {
  public:
-  /// Free of what is in the world, its landmarks so far included. Landmarks that are added to the free space
-  /// keep `own_distance` [m] between their centres.
+  /// The part of the ground that keeps clear of everything in the world, including its present landmarks.
+  /// Landmarks that are added later keep `own_distance` [m] between their centres.
   FreeSpace(const World& world, double radius, const Clearances& clear, double own_distance);
 
-  /// Whether a landmark can stand there: wholly on the ground, and clear of all that stands in the world.
+  /// Whether a landmark can stand at p: wholly on the ground, and clear of everything in the world.
   bool is_free(const Eigen::Vector2d& p) const;
 
   void add(const Eigen::Vector2d& p);
@@ -38,11 +39,11 @@ class FreeSpace {
   double radius_;                // [m]
   double own_distance_;          // [m]
   double clear_landmarks_;       // [m]
-  std::size_t foreign_count_;    // [-] points below this index stood there before
+  std::size_t foreign_count_;    // [-] points below this index were in the world before
   std::vector<double> radii_;    // [m] of all landmarks
   PointGrid points_;             // of all landmarks
   ShapeGrid keep_outs_;
-  std::vector<double> clearances_;  // [m] from each of the keep-outs to the centre of a landmark
+  std::vector<double> clearances_;  // [m] for each keep-out: least distance to a landmark's centre
 };
 
 }  // namespace worlds

@@ -12,7 +12,7 @@
 namespace worlds {
 namespace {
 
-/// One more try at a place for the landmark with this index.
+/// Draws one more candidate position for the landmark with this index.
 using Candidate = std::function<Eigen::Vector2d(std::int64_t index)>;
 
 /// Uniform in [low, high).
@@ -32,7 +32,7 @@ Eigen::Vector2d jittered(const Eigen::Vector2d& p, double jitter, std::mt19937_6
              : p;
 }
 
-/// Columns and rows of whole cells. The margin keeps a region of n cells from having n - 1 by rounding.
+/// Columns and rows of whole cells. The margin keeps rounding from giving a region of n cells only n - 1.
 Eigen::Array2d grid_cells(const Generator& generator) {
   constexpr double margin = 1e-9;
   return ((generator.max - generator.min).cwiseQuotient(generator.cell).array() + margin).floor();
@@ -84,12 +84,12 @@ Line corridor_line(const Generator& generator, const World& world) {
   return {world.drive.path, world.drive.closed};
 }
 
-/// How many places there are on each side of the line: one in the middle of every `spacing`.
+/// The number of places on each side of the polyline: one at the centre of every `spacing`.
 double corridor_places(const Generator& generator, const Line& line) {
   return std::floor(length(line.points, line.closed) / generator.spacing + 0.5);
 }
 
-/// Even indices stand on the left of the line, odd ones on its right.
+/// Landmarks with even indices stand on the left of the polyline, those with odd indices on its right.
 Candidate corridor_candidate(const Generator& generator, const World& world, std::mt19937_64& random) {
   const Line line = corridor_line(generator, world);
   const std::vector<Segment> segments = legs(line.points, line.closed);
@@ -133,7 +133,7 @@ Candidate make_candidate(const Generator& generator, const World& world, std::mt
 }
 
 bool in_region(const Generator& generator, const Eigen::Vector2d& p) {
-  if (generator.pattern != Pattern::clusters) return true;  // no other pattern can leave its region
+  if (generator.pattern != Pattern::clusters) return true;  // only clusters can leave their region
   return (p.array() >= generator.min.array()).all() && (p.array() <= generator.max.array()).all();
 }
 
@@ -160,7 +160,7 @@ Placed generate(const Generator& generator, World& world, std::mt19937_64& rando
   const bool fixed = has_fixed_places(generator);
   const std::int64_t tries = fixed && generator.jitter == 0 ? 1 : generator.max_tries;
   Placed result{0, static_cast<std::int64_t>(wanted_landmarks(generator, world))};
-  std::int64_t fruitless = 0;  // [-] tries since the last that was placed
+  std::int64_t fruitless = 0;  // [-] tries since the last success
   for (std::int64_t i = 0, end = result.wanted; i < end; ++i) {
     bool placed = false;
     for (std::int64_t k = 0; k < tries && !placed; ++k) {
@@ -173,7 +173,7 @@ Placed generate(const Generator& generator, World& world, std::mt19937_64& rando
       ++result.placed;
       placed = true;
     }
-    if (!placed && !fixed) return result;  // the rest would find no place either
+    if (!placed && !fixed) return result;  // the remaining ones would find no place either
     if (!placed && generator.skip_blocked) --result.wanted;
   }
   return result;

@@ -15,7 +15,7 @@ Eigen::Vector2d to_own_frame(const Eigen::Vector2d& p_world, const Rectangle& re
   return {rectangle.axis.dot(offset), cross(rectangle.axis, offset)};
 }
 
-/// Whether the segments cross at a point inside of both.
+/// Whether the segments cross at a point in the interior of both.
 bool cross_properly(const Segment& a, const Segment& b) {
   const Eigen::Vector2d along_a = a.to - a.from;
   const Eigen::Vector2d along_b = b.to - b.from;

@@ -1,4 +1,4 @@
-// Distances on the plane, between what stands in a world.
+// Shapes in the plane, and distances between them.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,11 +8,12 @@
 
 namespace worlds {
 
-/// A rectangle that may be turned. Walls are rectangles along their segments; a segment is one of no width.
+/// A rectangle that may be turned. A leg of a wall is a rectangle along its segment; a segment is a rectangle
+/// without width.
 struct Rectangle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // p_world [m]
-  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();   // of its own x, unit length [-]
-  Eigen::Vector2d half = Eigen::Vector2d::Zero();    // half its size along its own x and y [m]
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();   // direction of its own x axis, unit length [-]
+  Eigen::Vector2d half = Eigen::Vector2d::Zero();    // half its size along its own axes [m]
 };
 
 struct Segment {
@@ -23,14 +24,14 @@ struct Segment {
 Rectangle rectangle(const Box& box);
 Rectangle rectangle(const Segment& segment, double thickness);
 
-/// The legs of a polyline; a closed one has a last leg back to its first point. Legs of no length are left
-/// out.
+/// The segments (legs) of a polyline. A closed one has a last leg back to its first point. Legs of zero length
+/// are left out.
 std::vector<Segment> legs(const std::vector<Eigen::Vector2d>& points, bool closed);
 
-/// What blocks motion and sight: all boxes, then the legs of all walls.
+/// Everything that blocks motion and sight: all boxes, then the legs of all walls.
 std::vector<Rectangle> solid_rectangles(const World& world);
 
-/// Distances are between the nearest points, 0 where things overlap. [m]
+/// Distances between the nearest points; 0 where the shapes overlap. [m]
 double distance(const Eigen::Vector2d& point, const Segment& segment);
 double distance(const Eigen::Vector2d& point, const Rectangle& rectangle);
 double distance(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& polyline, bool closed);
@@ -43,21 +44,20 @@ bool on_ground(const Eigen::Vector2d& centre, double radius, const Eigen::Vector
 /// The length of a polyline. [m]
 double length(const std::vector<Eigen::Vector2d>& points, bool closed);
 
-/// The radius of the largest landmark, 0 if there are none. [m]
+/// The radius of the largest landmark; 0 if there is no landmark. [m]
 double largest_radius(const std::vector<Landmark>& landmarks);
 
-/// How wide a wheel is: half its radius. [m]
+/// The width of a wheel: half its radius. [m]
 double wheel_width(const Robot& robot);
 
-/// What the chassis covers of the ground, in the robot frame: as wide as the wheels, as long as wheels and
-/// caster.
+/// The ground that the chassis covers, in the robot frame: as wide as the wheels, as long as wheels and caster.
 struct Footprint {
   Eigen::Vector2d min;  // [m]
   Eigen::Vector2d max;  // [m]
 };
 Footprint footprint(const Robot& robot);
 
-/// The radius about the middle of the axle within which the robot stays, whatever its heading. [m]
+/// The radius around the middle of the axle within which the robot stays at any heading. [m]
 double footprint_radius(const Robot& robot);
 
 }  // namespace worlds

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <random>
+#include <system_error>
 #include <utility>
 
 #include "worlds/check.hpp"
@@ -23,8 +26,8 @@ Node text_node(std::string text, const Location& where) {
   return node;
 }
 
-/// Lays out the path, or reads the commands. The document gets the commands' full path: it may move
-/// elsewhere.
+/// Lays out the path of the drive, or reads its commands. The document gets the absolute path of the commands'
+/// file, since the document may move to another folder.
 void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Node& document,
                    std::vector<Problem>& problems) {
   Drive& drive = world_file.world.drive;
@@ -35,7 +38,7 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
   }
   if (drive.mode == DriveMode::commands) {
     Node* node = document.find("drive")->find("file");
-    const bool is_in_a_file = node->where.line > 0;  // and not in an override
+    const bool is_in_a_file = node->where.line > 0;  // not in an override
     const std::filesystem::path named_in = is_in_a_file ? std::filesystem::path(*node->where.source) : file;
     const std::filesystem::path relative = named_in.parent_path() / drive.commands_file;
     std::error_code error;
@@ -44,7 +47,7 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
     *node = text_node(drive.commands_file, node->where);
     std::vector<Problem> found;
     drive.commands = read_commands(drive.commands_file, found);
-    if (!found.empty() && found.front().where.line == 0) {  // about the file as a whole: say who wanted it
+    if (!found.empty() && found.front().where.line == 0) {  // not at one line: say where the file was named
       refuse_value(document, "drive.file", to_string(found.front()), problems);
     } else {
       problems.insert(problems.end(), found.begin(), found.end());
@@ -54,7 +57,7 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
 
 void generate_landmarks(const Node& document, WorldFile& world_file, std::vector<Problem>& problems) {
   const double most = limits().landmarks;
-  constexpr std::size_t enough = 20;  // [-] problems that are worth the time to find them
+  constexpr std::size_t enough = 20;  // [-] problems after which no further generator runs
   World& world = world_file.world;
   for (std::size_t i = 0; i < world_file.generators.size() && problems.size() < enough; ++i) {
     const Generator& generator = world_file.generators[i];

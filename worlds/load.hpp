@@ -1,4 +1,4 @@
-// World files, read and checked completely before anything runs.
+// Reads and checks a world file completely before anything runs.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace worlds {
 
-/// For each type of estimator, what describes its options. A description leaves a value for every option in
+/// For each type of estimator, the function that describes its options. It leaves a value for every option in
 /// the map.
 using EstimatorSchemas =
     std::map<std::string, std::function<void(Fields&, std::map<std::string, OptionValue>&)>>;
@@ -23,12 +23,13 @@ using EstimatorSchemas =
 struct LoadResult {
   std::optional<World> world;  // nothing if there is a problem
   std::string
-      resolved;  // YAML: all merged, defaults explicit, generators as they are; loads to the same world
+      resolved;  // YAML: everything merged, defaults explicit, generators unchanged; loads to the same world
   std::vector<Problem> problems;  // sorted by place
 };
 
-/// Loads a world file. `overrides` are `path.to.key=value`, later ones win. `version`, if any, becomes the
-/// resolved document's `seifbed_version`. Does not throw for anything that stands in a file.
+/// Loads a world file. `overrides` have the form `path.to.key=value`; later ones replace earlier ones. A
+/// `version` that is not empty becomes the resolved document's `seifbed_version`. The content of a file never
+/// makes this function throw.
 LoadResult load_world(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                       const EstimatorSchemas& estimators, std::string_view version = "");
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace worlds {
@@ -11,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Lays `over` upon `base`.
+/// Merges `over` into `base`; `over` wins.
 void merge(Node& base, Node over) {
   if (base.kind != Node::Kind::map || over.kind != Node::Kind::map) {
     base = std::move(over);
@@ -38,7 +40,7 @@ fs::path same_name(const fs::path& file) {
   return error ? file : canonical;
 }
 
-/// Takes the `extends` out of a map. Nothing if there is none.
+/// Removes `extends` from a map, and returns it. Nothing if there is none.
 std::optional<Node> take_extends(Node& node) {
   const auto found = std::find_if(node.entries.begin(), node.entries.end(),
                                   [](const Node::Entry& entry) { return entry.key == "extends"; });
@@ -86,7 +88,7 @@ std::optional<Node> read_chain(const fs::path& file, std::vector<fs::path>& chai
   return base;
 }
 
-/// Where a whole tree was written, from now on.
+/// Sets the location of a whole tree.
 void relocate(Node& node, const Location& where) {
   node.where = where;
   for (Node& item : node.items) relocate(item, where);
@@ -103,13 +105,15 @@ Node empty_map(const Location& where) {
   return node;
 }
 
-/// What keys, names and indices are made of. Other bytes would come into a document that no file could hold.
+/// Whether the text consists of the characters that keys, names and indices have. Other bytes would make a
+/// document that no file could hold.
 bool is_word(std::string_view text) {
   return text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
          std::string_view::npos;
 }
 
-/// One step of a path: the child, made if it is missing in a map. Null and a message if there can be none.
+/// One step along a path: returns the child, which is made if it is missing in a map. Null and a message if it
+/// cannot be made.
 Node* step_into(Node& node, std::string_view step, const Location& where, std::string& message) {
   if (node.kind == Node::Kind::sequence) {
     std::size_t index = 0;
@@ -153,7 +157,7 @@ void apply_override(Node& root, const std::string& assignment, std::vector<Probl
   }
   relocate(*value, where);
 
-  Node changed = root;  // a path that leads nowhere must not leave half of itself behind
+  Node changed = root;  // a path that fails must not leave a part of it in the document
   Node* node = &changed;
   for (bool more = true; more;) {
     const std::size_t dot = path.find('.');

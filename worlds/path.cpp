@@ -6,7 +6,7 @@
 namespace worlds {
 namespace {
 
-/// Positions of a unicycle that follows the commands exactly, at most `step` [s] apart.
+/// Positions of a unicycle that follows the commands exactly, at most `step` [s] apart in time.
 std::vector<Eigen::Vector2d> commanded_path(const Placement& start,
                                             const std::vector<VelocityCommand>& commands, double duration) {
   constexpr double step = 0.1;
@@ -30,7 +30,7 @@ std::vector<Eigen::Vector2d> commanded_path(const Placement& start,
 }  // namespace
 
 std::vector<Eigen::Vector2d> serpentine(const Eigen::Vector2d& min, const Eigen::Vector2d& max, double lane) {
-  // The margin keeps an area that is a whole number of lanes wide from getting one more by rounding.
+  // The margin keeps rounding from adding a lane to an area that is a whole number of lanes wide.
   constexpr double margin = 1e-9;
   const double width = max.y() - min.y();
   const auto gaps = static_cast<int>(std::ceil(width / lane - margin));

@@ -1,4 +1,4 @@
-// The paths that drives follow.
+// The paths that the robot follows.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,12 +9,12 @@
 namespace worlds {
 
 /// Corners of a path that covers the rectangle from `min` to `max` in lanes along x, from the lowest to the
-/// highest y, every other one backwards. The lanes are evenly spaced, at most `lane` apart, the outer ones on
-/// the edges. All in [m]; lane > 0 and min <= max.
+/// highest y. Every second lane is driven backwards, in -x. The lanes are evenly spaced, at most `lane` apart,
+/// with the outer ones on the edges. All in [m]; lane > 0 and min <= max.
 std::vector<Eigen::Vector2d> serpentine(const Eigen::Vector2d& min, const Eigen::Vector2d& max, double lane);
 
-/// Where the world's robot is meant to drive: from its start to the path of its drive and along it, or where
-/// its commands would take an ideal robot; for other drives the start alone.
+/// The path that the robot is meant to drive: from its start to the path of its drive and along it, or the path
+/// of an ideal robot under its commands. For other drives only the start.
 std::vector<Eigen::Vector2d> driven_path(const World& world);
 
 }  // namespace worlds

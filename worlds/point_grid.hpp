@@ -1,5 +1,5 @@
-// Points in a hashed grid of square cells: finding those near a place costs the same among a hundred and a
-// million.
+// Points in a hashed grid of square cells. Finding the points near a place costs the same among a hundred and
+// among a million.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,10 +12,10 @@ namespace worlds {
 
 class PointGrid {
  public:
-  /// `reach` [m]: the largest distance that will be asked about; > 0.
+  /// `reach` [m]: the largest distance for any_near(); > 0.
   explicit PointGrid(double reach) : cell_(reach), heads_(64, nobody) {}
 
-  /// Points are numbered in the order in which they come.
+  /// Points are numbered in the order in which they are added.
   void add(const Eigen::Vector2d& point) {
     if (points_.size() == heads_.size()) grow();
     points_.push_back(point);
@@ -23,15 +23,15 @@ class PointGrid {
     link(points_.size() - 1);
   }
 
-  /// Whether any(index, position) is true for a point within `reach` of p. It is asked about some beyond,
-  /// too, and may be asked about one twice.
+  /// Whether any(index, position) is true for a point within `reach` of p. `any` is also called for some points
+  /// farther away, and may be called twice for one point.
   template <class Predicate>
   bool any_near(const Eigen::Vector2d& p, const Predicate& any) const {
     const Cell middle = cell_of(p);
     return any_in_cells({middle.column - 1, middle.row - 1}, {middle.column + 1, middle.row + 1}, any);
   }
 
-  /// The same for any distance; the work grows with the square of it over `reach`.
+  /// The same for any distance; the work grows with (distance / reach)^2.
   template <class Predicate>
   bool any_within(const Eigen::Vector2d& p, double distance, const Predicate& any) const {
     const Eigen::Vector2d half_size(distance, distance);
@@ -63,8 +63,8 @@ class PointGrid {
     return false;
   }
 
-  /// Large odd factors spread neighbouring cells (Teschner et al., "Optimized Spatial Hashing for Collision
-  /// Detection of Deformable Objects", 2003).
+  /// Hash with large odd factors, which spread neighbouring cells (Teschner et al., "Optimized Spatial Hashing
+  /// for Collision Detection of Deformable Objects", 2003).
   std::size_t bucket(const Cell& cell) const {
     const std::uint64_t hash = static_cast<std::uint64_t>(cell.column) * 73856093U ^
                                static_cast<std::uint64_t>(cell.row) * 19349663U;
@@ -83,8 +83,8 @@ class PointGrid {
   }
 
   double cell_;                      // [m] edge of a cell
-  std::vector<std::int32_t> heads_;  // for each bucket the last point in it; a power of two of them
-  std::vector<std::int32_t> next_;   // for each point the one before it in its bucket
+  std::vector<std::int32_t> heads_;  // for each of the 2^n buckets: its latest point
+  std::vector<std::int32_t> next_;   // for each point: the one before it in its bucket
   std::vector<Eigen::Vector2d> points_;
 };
 

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "worlds/fields.hpp"
 
@@ -17,7 +22,7 @@ std::string format_number(double value) { return fmt::format("{}", value); }
 
 enum class NumberStatus { good, no_number, not_finite };
 
-/// A number as YAML writes it. Quoted text is none.
+/// A number in the syntax of YAML. Quoted text is not a number.
 NumberStatus parse_number(const Node& node, double& value) {
   static const std::set<std::string, std::less<>> not_finite = {
       "inf", "+inf", "-inf", ".inf", "+.inf", "-.inf", "nan", ".nan", ".Inf", "-.Inf", ".NaN", "NaN"};
@@ -25,7 +30,7 @@ NumberStatus parse_number(const Node& node, double& value) {
   if (not_finite.count(node.text) > 0) return NumberStatus::not_finite;
   std::string_view text = node.text;
   if (text.front() == '+') {
-    text.remove_prefix(1);  // from_chars takes a minus alone
+    text.remove_prefix(1);  // from_chars takes a minus sign but no plus sign
     if (text.empty() || text.front() == '+' || text.front() == '-') return NumberStatus::no_number;
   }
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return NumberStatus::no_number;
@@ -53,7 +58,7 @@ bool contains(const Range& range, double value) {
   return value <= range.max && (range.excludes_min ? value > range.min : value >= range.min);
 }
 
-/// What a value is, for messages.
+/// Describes a value, for messages.
 std::string describe_node(const Node& node) {
   switch (node.kind) {
     case Node::Kind::null:
@@ -106,7 +111,7 @@ Node make_point(const Eigen::Vector<double, N>& point, const Location& where) {
   return node;
 }
 
-/// The keys that a description knows, and nothing else.
+/// Collects the keys that a description asks for, and does nothing else.
 class KeyCollector : public Fields {
  public:
   std::vector<std::string> keys;
@@ -137,7 +142,7 @@ class KeyCollector : public Fields {
   void add(std::string_view key) { keys.emplace_back(key); }
 };
 
-/// Reads one map; inner maps are read by readers of their own.
+/// Reads one map; each inner map has its own reader.
 class Reader : public Fields {
  public:
   Reader(Node& map, std::string path, std::string_view unit, std::vector<Problem>& problems)
@@ -147,7 +152,7 @@ class Reader : public Fields {
         problems_(problems),
         problems_before_(problems.size()) {}
 
-  /// To be called when all keys have been described.
+  /// To be called after all keys have been described.
   void refuse_unknown_keys() {
     const std::vector<std::string> known(known_.begin(), known_.end());
     for (const Node::Entry& entry : map_.entries) {
@@ -206,7 +211,7 @@ class Reader : public Fields {
                                                    kind, one.name)
                                      : fmt::format(", '{}'", one.name);
         } else {
-          known_.insert(name);  // nobody can say yet whether it belongs
+          known_.insert(name);  // it is not yet known whether this key belongs here
         }
       }
     }
@@ -267,7 +272,7 @@ class Reader : public Fields {
     return map_.entries.back().value;
   }
 
-  /// The map or list of a key; made empty if it is missing. If it is something else, that is a problem.
+  /// The map or list of a key; a missing one is made, empty. A value of another kind is a problem.
   Node& child_of_kind(std::string_view key, Node::Kind kind) {
     known_.insert(std::string(key));
     Node* child = map_.find(key);
@@ -429,11 +434,11 @@ class Reader : public Fields {
 
   Node& map_;
   std::string path_;
-  std::string_view unit_;  // of keys that tell none themselves, because the section's key does
+  std::string_view unit_;  // of keys without a unit of their own: the section's key tells it
   std::vector<Problem>& problems_;
   std::size_t problems_before_;
   std::set<std::string, std::less<>> known_;
-  std::map<std::string, std::string, std::less<>> foreign_;  // keys of other kinds of this section -> message
+  std::map<std::string, std::string, std::less<>> foreign_;  // keys of this section's other kinds -> message
 };
 
 }  // namespace

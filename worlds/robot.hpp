@@ -21,7 +21,7 @@ struct Robot {
   double wheel_mass = 0.3;                      // [kg] of one wheel, part of `mass`
   double wheel_radius = 0.1;                    // [m]
   double track = 0.4;                           // [m] between the wheels' contact points
-  double motor_torque = 2.0;                    // [N m] the most that one wheel's motor gives
+  double motor_torque = 2.0;                    // [N m] largest torque of one wheel's motor
   double max_speed = 1.0;                       // [m/s]
   double max_turn_rate = 90 * degree;           // [rad/s]
   double max_acceleration = 1.0;                // [m/s^2]
@@ -29,7 +29,7 @@ struct Robot {
   Caster caster;
 };
 
-/// An axis-aligned rectangle of the ground with a friction of its own.
+/// An axis-aligned rectangle of the ground with its own friction.
 struct FrictionPatch {
   Eigen::Vector2d min = Eigen::Vector2d::Zero();  // [m]
   Eigen::Vector2d max = Eigen::Vector2d::Zero();  // [m]
@@ -45,7 +45,7 @@ struct Physics {
   Engine engine = Engine::bullet;
   int step_rate = 240;                 // [Hz]
   double friction = 0.9;               // [-] Coulomb coefficient between wheels and ground
-  std::vector<FrictionPatch> patches;  // where they overlap the later one counts
+  std::vector<FrictionPatch> patches;  // where patches overlap, the later one counts
 };
 
 }  // namespace worlds

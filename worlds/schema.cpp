@@ -1,8 +1,12 @@
 #include "worlds/schema.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "worlds/describe.hpp"
 
@@ -13,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* name_pattern = "^[A-Za-z0-9_-]+$";
 
-/// Writes the schema of one map; inner maps are written by writers of their own.
+/// Writes the schema of one map; each inner map has its own writer.
 class SchemaWriter : public Fields {
  public:
   explicit SchemaWriter(std::string_view unit) : unit_(unit) {}
@@ -140,8 +144,8 @@ class SchemaWriter : public Fields {
   Json conditions_ = Json::array();
 };
 
-/// All keys of all kinds are properties; for each kind a condition says which of them it has not, and which
-/// it needs.
+/// The keys of all kinds are properties. For each kind, a condition lists the keys that it does not have and
+/// those that it requires.
 void SchemaWriter::variant(std::string_view key, std::string& kind, const std::vector<Case>& cases,
                            std::string_view help, Need need) {
   std::vector<std::string> names;
@@ -163,7 +167,7 @@ void SchemaWriter::variant(std::string_view key, std::string& kind, const std::v
     if (!writers[i].required_.empty()) then["required"] = writers[i].required_;
     Json condition = {{"properties", {{std::string(key), {{"const", cases[i].name}}}}}};
     if (cases[i].name != kind)
-      condition["required"] = Json::array({key});  // without the key, the default holds
+      condition["required"] = Json::array({key});  // without the key, the default is used
     conditions_.push_back({{"if", std::move(condition)}, {"then", std::move(then)}});
   }
 }

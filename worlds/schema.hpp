@@ -1,4 +1,4 @@
-// The JSON Schema of world files, for editors: made from the same description that the loader reads by.
+// The JSON Schema of world files, for editors. It is made from the description that the loader uses, too.
 #pragma once
 
 #include <string>

@@ -22,10 +22,10 @@ void ShapeGrid::add(const Rectangle& shape, double reach) {
   enter(shape, reach, static_cast<std::int32_t>(shapes_.size() - 1));
 }
 
-/// Enters the index in the cells near the shape. A long one is halved first: the cells of the box around it,
-/// if it is turned, are mostly far away from it.
+/// Enters the index in the cells near the shape. A long shape is halved first: if it is turned, most cells of
+/// its bounding box are far away from it.
 void ShapeGrid::enter(const Rectangle& shape, double reach, std::int32_t index) {
-  constexpr double long_shape = 4.0;  // [-] times its width, or a cell
+  constexpr double long_shape = 4.0;  // [-] times its width, or times a cell
   if (shape.half.x() > long_shape * std::max(cell_, shape.half.y() + reach)) {
     const Eigen::Vector2d half(0.5 * shape.half.x(), shape.half.y());
     enter({shape.centre - half.x() * shape.axis, shape.axis, half}, reach, index);
@@ -48,7 +48,7 @@ void ShapeGrid::enter(const Rectangle& shape, double reach, std::int32_t index) 
   }
 }
 
-/// The cell in which a point lies; for a point beyond the ground the nearest one.
+/// The cell in which a point lies; for a point outside the ground, the nearest cell.
 Eigen::Array2i ShapeGrid::cell_of(const Eigen::Vector2d& p) const {
   const Eigen::Array2d position = ((p + 0.5 * ground_size_) / cell_).array().floor();
   const Eigen::Array2d last = (cells_ - 1).cast<double>();

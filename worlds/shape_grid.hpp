@@ -1,4 +1,5 @@
-// Rectangles in a grid of square cells: finding those near a place costs the same among ten and ten thousand.
+// Rectangles in a grid of square cells. Finding the rectangles near a place costs the same among ten and among
+// ten thousand.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +13,15 @@ namespace worlds {
 
 class ShapeGrid {
  public:
-  /// `reach` [m]: about the largest distance that will be asked about; more only costs time.
+  /// `reach` [m]: roughly the largest reach of the shapes; a larger one only costs time.
   ShapeGrid(const Eigen::Vector2d& ground_size, double reach);
 
-  /// Shapes are numbered in the order in which they come. This one can be asked about within `reach` [m] of
-  /// it.
+  /// Adds a shape. Shapes are numbered in the order in which they are added. any_near() finds this one within
+  /// `reach` [m] of it.
   void add(const Rectangle& shape, double reach);
 
-  /// Whether any(index, shape) is true for a shape within reach of p. It is asked about some beyond, too.
+  /// Whether any(index, shape) is true for a shape within its reach of p. `any` is also called for some shapes
+  /// farther away.
   template <class Predicate>
   bool any_near(const Eigen::Vector2d& p, const Predicate& any) const {
     for (const std::int32_t i : by_cell_[index_of(cell_of(p))]) {

@@ -1,4 +1,4 @@
-// What stands on the ground: landmarks, boxes and walls. World frame: x east, y north.
+// The solid things on the ground: landmarks, boxes and walls. World frame: x east, y north.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace worlds {
 
 /// A vertical cylinder that the sensor can see and the robot can bump into.
 struct Landmark {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world [m], of the axis
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world of the axis [m]
   double radius = 0.1;                                 // [m]
 };
 
@@ -26,7 +26,7 @@ struct Wall {
   std::vector<Eigen::Vector2d> points;  // [m], at least two
   double thickness = 0.15;              // [m]
   double height = 1.0;                  // [m]
-  bool closed = false;                  // from the last point back to the first
+  bool closed = false;                  // the wall goes back from the last point to the first
 };
 
 }  // namespace worlds

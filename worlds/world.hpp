@@ -20,19 +20,19 @@ namespace worlds {
 
 using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
 
-/// An estimator to run, under a name of its own. What its options mean, only the estimator knows.
+/// An estimator to run, under its own name. Only the estimator knows the meaning of its options.
 struct EstimatorChoice {
   std::string name;
-  std::string type;                 // the registered kind; by default the name
-  double odometry_sd_factor = 1.0;  // [-] what it believes of the odometry noise, over what the sensor says
-  double observation_sd_factor = 1.0;          // [-] the same for observations
+  std::string type;                    // the registered kind; by default the name
+  double odometry_sd_factor = 1.0;     // [-] odometry noise that it assumes / noise that the sensor reports
+  double observation_sd_factor = 1.0;  // [-] the same for observations
   std::map<std::string, OptionValue> options;  // a value for every option of the type
 };
 
 struct Scoring {
-  double interval = 10.0;     // [s] between the times at which consistency is scored
-  int landmark_sample = 200;  // [-] landmarks scored for consistency, at the most
-  double rpe_interval = 1.0;  // [s] over which the relative pose error is taken
+  double interval = 10.0;     // [s] between two scorings of consistency
+  int landmark_sample = 200;  // [-] landmarks scored for consistency, at most
+  double rpe_interval = 1.0;  // [s] over which the relative pose error is measured
 };
 
 struct World {
@@ -43,7 +43,7 @@ struct World {
   Eigen::Vector2d ground_size = Eigen::Vector2d(40, 40);  // [m] centred on the origin
   Robot robot;
   Physics physics;
-  std::vector<Landmark> landmarks;  // the index is the landmark's id
+  std::vector<Landmark> landmarks;  // a landmark's index is its id
   std::vector<Box> boxes;
   std::vector<Wall> walls;
   Drive drive;

@@ -1,4 +1,6 @@
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/estimators/calibration.hpp"

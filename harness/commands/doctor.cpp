@@ -1,4 +1,5 @@
 #include <memory>
+#include <string>
 
 #include "harness/commands/commands.hpp"
 #include "harness/doctor/diagnosis.hpp"

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/film/film_folder.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <string>
 
 #include "harness/commands/commands.hpp"
 #include "harness/recording/run_folder.hpp"

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "harness/commands/commands.hpp"
 #include "harness/figures/figure_plot.hpp"

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/estimators/estimator_schemas.hpp"

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/files/bad_input.hpp"

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/estimators/estimator_schemas.hpp"

@@ -1,6 +1,8 @@
 #include "harness/estimators/batch.hpp"
 
+#include <cstdint>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <variant>
 
 #include "harness/estimators/full_slam.hpp"
 #include "harness/files/bad_input.hpp"

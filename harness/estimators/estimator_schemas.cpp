@@ -1,5 +1,8 @@
 #include "harness/estimators/estimator_schemas.hpp"
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace harness {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "harness/figures/figure.hpp"
 #include "harness/files/base64.hpp"

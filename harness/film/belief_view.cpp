@@ -77,7 +77,7 @@ void BeliefView::update(const UpdateRecord& record) {
     if (landmark != seif::no_landmark && !means_.position(landmark)) new_.push_back(landmark);
   }
   t_ = record.t;
-  links_ = record.links;
+  links_ = record.counts.links;
   pose_ = record.est_pose;
   ++matrix_refresh_.scans;
   ++covariance_refresh_.scans;

@@ -2,7 +2,9 @@
 // The filters process the log once more; the update times are those of the recorded run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <string>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/film/pictures.hpp"

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <string>
+#include <system_error>
+
 #include "sim/render/png.hpp"
 
 namespace harness {

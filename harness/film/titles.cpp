@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "harness/film/fitted_text.hpp"
 #include "harness/film/paint.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string_view>
 
 #include "harness/figures/palette.hpp"
 #include "harness/paper/paper.hpp"

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "harness/files/text_table.hpp"
 #include "harness/paper/published.hpp"

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "harness/readers/landmark_rows.hpp"
 

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "harness/readers/landmark_rows.hpp"
 #include "harness/readers/number_rows.hpp"
 

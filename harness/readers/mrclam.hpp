@@ -1,8 +1,10 @@
 // A folder of the UTIAS Multi-Robot Cooperative Localization and Mapping Dataset, seen by one of its robots.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "harness/files/row_reader.hpp"
 #include "harness/readers/log_noise.hpp"

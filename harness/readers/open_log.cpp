@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/row_reader.hpp"

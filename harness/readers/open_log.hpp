@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/readers/log_noise.hpp"
 #include "harness/stream/recorded_log.hpp"

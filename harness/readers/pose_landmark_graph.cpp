@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "harness/readers/landmark_rows.hpp"
 #include "seif/models.hpp"

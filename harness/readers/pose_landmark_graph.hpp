@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "harness/files/row_reader.hpp"
 #include "harness/stream/recorded_log.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "harness/files/row_reader.hpp"
 #include "harness/readers/log_noise.hpp"

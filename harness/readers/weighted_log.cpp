@@ -1,6 +1,7 @@
 #include "harness/readers/weighted_log.hpp"
 
 #include <utility>
+#include <variant>
 
 namespace harness {
 

@@ -1,23 +1,15 @@
 #include "harness/recording/recorder.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
+
+#include "harness/recording/cells.hpp"
+#include "harness/recording/step_table.hpp"
 
 namespace harness {
 
 namespace {
-
-/// The upper triangle, row by row.
-template <class Matrix>
-void write_covariance(CsvWriter& file, const Matrix& covariance) {
-  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
-    for (Eigen::Index j = i; j < covariance.cols(); ++j) file.value(covariance(i, j));
-  }
-}
-
-void write_if_known(CsvWriter& file, const std::optional<double>& number) {
-  number ? file.value(*number) : file.leave_empty();
-}
 
 void write_landmarks(const std::filesystem::path& path, std::span<const TrueLandmark> landmarks) {
   CsvWriter file(path, "landmark,x,y,radius");
@@ -61,10 +53,7 @@ Recorder::Recorder(std::filesystem::path folder, const LogDescription& log,
 Recorder::EstimatorFiles Recorder::open_estimator(const std::string& name) const {
   return {
       name, CsvWriter(folder_ / (name + ".tum"), no_header, ' '),
-      CsvWriter(folder_ / (name + "_steps.csv"),
-                "t,error_x,error_y,error_theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,"
-                "blocks_touched,active_landmarks,links,relocations,mean_residual,anchoring,gated,innovation,"
-                "innovation_degrees,weakened"),
+      CsvWriter(folder_ / (name + "_steps.csv"), step_header()),
       CsvWriter(folder_ / (name + "_times.csv"), "t,update,motion,measurement,sparsification,mean_recovery"),
       CsvWriter(folder_ / (name + "_consistency.csv"),
                 "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes")};
@@ -123,28 +112,7 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
   EstimatorFiles& files = estimators_.at(estimator);
   write_pose(files.trajectory, record.t, record.est_pose);
 
-  files.steps.value(record.t);
-  if (record.true_pose) {
-    files.steps.value(record.est_pose.x - record.true_pose->x).value(record.est_pose.y - record.true_pose->y);
-    files.steps.value(seif::wrap_angle(record.est_pose.theta - record.true_pose->theta));
-  } else {
-    files.steps.leave_empty(3);
-  }
-  if (record.est_covariance) {
-    write_covariance(files.steps, *record.est_covariance);
-  } else {
-    files.steps.leave_empty(6);
-  }
-  files.steps.value(record.blocks_touched)
-      .value(std::int64_t{record.active_landmarks})
-      .value(record.links)
-      .value(record.relocations);
-  write_if_known(files.steps, record.mean_residual);
-  write_if_known(files.steps, record.anchoring);
-  files.steps.value(record.gated);
-  write_if_known(files.steps, record.innovation);
-  files.steps.value(std::int64_t{record.innovation_degrees}).value(record.weakened).end_row();
-
+  write_step(files.steps, record);
   files.times.value(record.t).value(record.times.update);
   for (const std::optional<double>& stage : record.times.stages) write_if_known(files.times, stage);
   files.times.end_row();

@@ -25,7 +25,7 @@ void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot);
 /// All files of one run. Every function throws std::system_error if something cannot be written.
 class Recorder final : public RunListener {
  public:
-  /// Creates the files in an empty folder and writes what is known at the start.
+  /// Creates the files in an empty folder and writes what is known before the first event.
   Recorder(std::filesystem::path folder, const LogDescription& log, std::span<const std::string> estimators);
 
   void odometry(const OdometryEvent& event) override;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"

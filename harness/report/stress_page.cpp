@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "harness/comparison/seeds.hpp"
 #include "harness/files/bad_input.hpp"

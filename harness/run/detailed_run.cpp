@@ -1,5 +1,7 @@
 #include "harness/run/detailed_run.hpp"
 
+#include <vector>
+
 #include "harness/files/output_file.hpp"
 #include "harness/run/rebuilding.hpp"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/recording/run_folder.hpp"
@@ -188,18 +189,9 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.est_covariance = estimator.filter->pose_covariance();
   if (record.est_covariance && !record.est_covariance->allFinite()) record.est_covariance.reset();
   record.true_pose = last_true_pose_;
-  const seif::Counts counts = estimator.filter->counts();
-  record.blocks_touched = counts.blocks_touched - blocks_touched_[index];
-  blocks_touched_[index] = counts.blocks_touched;
-  record.active_landmarks = counts.active_landmarks;
-  record.links = counts.links;
-  record.relocations = counts.relocations;
-  record.gated = counts.gated;
-  record.weakened = counts.weakened;
-  record.mean_residual = counts.mean_residual;
-  record.anchoring = counts.anchoring;
-  record.innovation = counts.innovation;
-  record.innovation_degrees = counts.innovation_degrees;
+  record.counts = estimator.filter->counts();
+  record.blocks_touched = record.counts.blocks_touched - blocks_touched_[index];
+  blocks_touched_[index] = record.counts.blocks_touched;
   record.times = times_[index];
   if (!estimator.filter->needs_names()) {
     record.associations = estimator.filter->associations();

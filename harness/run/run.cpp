@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <system_error>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"

@@ -1,6 +1,8 @@
 #include "harness/score/details.hpp"
 
 #include <cmath>
+#include <set>
+#include <variant>
 
 #include "harness/files/csv_reader.hpp"
 #include "harness/score/score_folder.hpp"

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "harness/files/csv_reader.hpp"
+#include "harness/recording/step_table.hpp"
 #include "harness/score/true_names.hpp"
 #include "harness/statistics/divergence.hpp"
 #include "harness/stream/log_stream.hpp"
@@ -45,29 +47,25 @@ void score_associations(const std::filesystem::path& folder, EstimatorScore& sco
 }
 
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
-  CsvReader rows(
-      folder / (score.name + "_steps.csv"),
-      {{"t", "error_x", "error_y", "error_theta", "cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt",
-        "blocks_touched", "active_landmarks", "links", "relocations", "mean_residual", "anchoring"},
-       {"gated"},
-       {"innovation", "innovation_degrees", "weakened"}});
+  CsvReader rows(folder / (score.name + "_steps.csv"), step_columns());
   std::vector<double> blocks_touched;
   std::vector<double> mean_residuals;
   InnovationTest innovations;
   while (rows.next()) {
     const std::int64_t gated_before = score.gated.value_or(0);
-    blocks_touched.push_back(rows.number(10));
-    score.active_max = std::max(score.active_max.value_or(0), rows.integer(11, 0, most));
-    score.links = rows.integer(12, 0, most);
-    score.relocations = rows.integer(13, 0, most);
-    if (!rows.is_empty(14)) mean_residuals.push_back(rows.number(14));
-    if (!rows.is_empty(15)) score.anchoring = rows.number(15);
-    if (rows.has_optional()) score.gated = rows.integer(16, 0, most);
+    blocks_touched.push_back(rows.number(step_blocks_touched));
+    score.active_max = std::max(score.active_max.value_or(0), rows.integer(step_active_landmarks, 0, most));
+    score.links = rows.integer(step_links, 0, most);
+    score.relocations = rows.integer(step_relocations, 0, most);
+    if (!rows.is_empty(step_mean_residual)) mean_residuals.push_back(rows.number(step_mean_residual));
+    if (!rows.is_empty(step_anchoring)) score.anchoring = rows.number(step_anchoring);
+    if (rows.has_optional()) score.gated = rows.integer(step_gated, 0, most);
     score.links_max = std::max(score.links_max.value_or(0), *score.links);
-    if (rows.has_newer()) score.weakened = rows.integer(19, 0, most);
-    if (rows.has_newer() && !rows.is_empty(17)) {
-      const auto degrees = static_cast<int>(rows.integer(18, 0, most_degrees));
-      innovations.add(rows.number(0), rows.number(17), degrees, *score.gated - gated_before);
+    if (rows.has_newer()) score.weakened = rows.integer(step_weakened, 0, most);
+    if (rows.has_newer() && !rows.is_empty(step_innovation)) {
+      const auto degrees = static_cast<int>(rows.integer(step_innovation_degrees, 0, most_degrees));
+      innovations.add(rows.number(step_t), rows.number(step_innovation), degrees,
+                      *score.gated - gated_before);
     }
   }
   score.diverged_t = innovations.fired_t();

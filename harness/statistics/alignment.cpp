@@ -19,8 +19,8 @@ std::optional<seif::Pose2> align(std::span<const Eigen::Vector2d> p_from,
   mean_from /= count;
   mean_to /= count;
 
-  // The best rotation maximises sum q_to . R q_from = cos(theta) * dot + sin(theta) * cross over the centred
-  // points.
+  // The best rotation maximises sum q_to . R q_from = cos(theta) * dot + sin(theta) * cross. The q are the
+  // points relative to their mean.
   double dot = 0.0;
   double cross = 0.0;
   double spread = 0.0;
@@ -31,7 +31,7 @@ std::optional<seif::Pose2> align(std::span<const Eigen::Vector2d> p_from,
     cross += q_from.x() * q_to.y() - q_from.y() * q_to.x();
     spread += q_from.squaredNorm() + q_to.squaredNorm();
   }
-  // If all points are equal, what remains is rounding error and gives no direction.
+  // If all points are equal, rounding errors alone remain; they define no rotation.
   const double rounding = 1e-24 * count * (mean_from.squaredNorm() + mean_to.squaredNorm());
   if (spread <= rounding || std::hypot(dot, cross) <= 1e-12 * spread) return std::nullopt;
   const seif::Pose2 rotation{0.0, 0.0, seif::wrap_angle(std::atan2(cross, dot))};

@@ -1,4 +1,4 @@
-// Degrees, for output only. Everything else is in radians.
+// Degrees, for output that people read. All other angles are in radians.
 #pragma once
 
 #include <numbers>

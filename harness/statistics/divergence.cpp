@@ -13,7 +13,7 @@ double highest_nis(int degrees) {
 }
 
 double highest_nees_pose() {
-  constexpr double chi_square_3 = 30.66;  // quantile at 1 - 1e-6
+  constexpr double chi_square_3 = 30.66;  // chi-square quantile, 3 degrees of freedom, at 1 - 1e-6
   return chi_square_3 / 3.0;
 }
 

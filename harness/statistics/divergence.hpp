@@ -1,4 +1,4 @@
-// Detects that a filter has diverged without the truth, by a running test of the filter's innovations.
+// Detects that a filter has diverged with a running test of its innovations. The test needs no truth.
 #pragma once
 
 #include <array>
@@ -8,23 +8,17 @@
 
 namespace harness {
 
-/// Tests the innovations of one estimator, in constant time and memory.
-///
-/// For a consistent filter, the sum of v' S^-1 v over scans has a chi-square distribution; its degrees of
-/// freedom are the number of measured values. The test looks at the last `window` scans that saw known
-/// landmarks. It fires if their sum is above highest_nis(), or if the filter's gate left out more of the
-/// known landmarks' observations than it let in.
+/// Follows the innovations of one estimator. Constant time and memory.
 class InnovationTest {
  public:
-  static constexpr std::size_t window = 10;  // [-] scans
+  static constexpr std::size_t window = 10;  // [scans]
 
-  /// Adds one update: v' S^-1 v, its degrees of freedom, and the number of observations that the gate left
-  /// out of the scan.
+  /// One update: v' S^-1 v, its degrees of freedom, and how many observations of this scan the gate rejected.
   void add(double t, double innovation, int degrees, std::int64_t gated);
 
-  /// The time at which the test first fired; empty if it never did. [s]
+  /// The time at which the test first fired; empty if it never fired. [s]
   std::optional<double> fired_t() const { return fired_t_; }
-  /// The largest NIS of a window so far, per degree of freedom; empty before the first full window. [-]
+  /// The largest NIS per degree of freedom over a window so far; empty before the first whole window. [-]
   std::optional<double> worst() const { return worst_; }
 
  private:
@@ -40,17 +34,17 @@ class InnovationTest {
   std::optional<double> worst_;
 };
 
-/// [-] errors of so many believed sigma are tolerated: on ice or with wrong wheel sizes a filter may be
-/// overconfident for a while and recover.
+/// [-] The test tolerates errors with up to this many times the standard deviation that the filter states. A
+/// filter may be this overconfident on ice or with wrong wheel parameters, and still recover.
 inline constexpr double tolerated_sigma = 4.0;
 
-/// The bound for a window's NIS per degree of freedom. A filter with errors of tolerated_sigma exceeds it
-/// once in a billion times. It is the chi-square quantile over `degrees`, by the approximation of Wilson and
-/// Hilferty, in constant time. [-]
+/// The limit of the NIS per degree of freedom. A filter that is exactly as overconfident as tolerated exceeds
+/// this limit with probability 1e-9. Computed as the chi-square quantile divided by `degrees`, with the
+/// approximation of Wilson and Hilferty, in constant time. [-]
 double highest_nis(int degrees);
 
-/// The bound for the pose's NEES per degree of freedom, above which a filter has diverged. A consistent
-/// filter exceeds it once in a million times. [-]
+/// A filter has diverged if the NEES of its pose per degree of freedom exceeds this limit. A consistent
+/// filter exceeds the limit with probability 1e-6. [-]
 double highest_nees_pose();
 
 }  // namespace harness

@@ -10,7 +10,7 @@ namespace harness {
 
 namespace {
 
-/// 95 % of Student's t distribution lie within this number of standard errors.
+/// The half width of the central 95 % of Student's distribution, in standard errors.
 double student_quantile(std::size_t degrees_of_freedom) {
   return boost::math::quantile(boost::math::students_t(static_cast<double>(degrees_of_freedom)), 0.975);
 }
@@ -19,8 +19,8 @@ double mean(std::span<const double> sample) {
   return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
 }
 
-/// The covariance of the means of two paired samples. Of a sample with itself, it is the variance of the
-/// mean.
+/// The covariance of the means of two paired samples. If both are the same sample, this is the variance of
+/// its mean.
 double covariance_of_means(std::span<const double> a, std::span<const double> b) {
   const double mean_a = mean(a);
   const double mean_b = mean(b);
@@ -41,8 +41,8 @@ std::optional<Estimate> mean_of(std::span<const double> sample) {
   return estimate;
 }
 
-/// The interval holds every ratio rho for which the mean of numerator - rho denominator does not differ
-/// significantly from zero: (y - rho x)^2 <= t^2 var(y - rho x), or a rho^2 - 2 b rho + c <= 0.
+/// The interval contains every ratio rho for which the mean of (numerator - rho * denominator) is not
+/// significantly different from zero: (y - rho x)^2 <= t^2 var(y - rho x), or a rho^2 - 2 b rho + c <= 0.
 std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
                                        std::span<const double> denominators) {
   assert(numerators.size() == denominators.size());
@@ -57,7 +57,7 @@ std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
   const double b = x * y - t * t * covariance_of_means(denominators, numerators);
   const double c = y * y - t * t * covariance_of_means(numerators, numerators);
   if (a <= 0.0) return estimate;
-  const double root = std::sqrt(std::max(0.0, b * b - a * c));  // rounding may make the difference negative
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));  // rounding may make the argument negative
   estimate.interval = {(b - root) / a, (b + root) / a};
   return estimate;
 }

@@ -1,4 +1,4 @@
-// Means over runs, with confidence intervals. Definitions: docs/scores.md.
+// Means over runs, and their confidence intervals. Definitions: docs/scores.md.
 #pragma once
 
 #include <optional>
@@ -18,18 +18,18 @@ struct Estimate {
   std::optional<ConfidenceInterval> interval;
 };
 
-/// The mean with Student's interval; no interval for a single value. Empty if there are no values.
+/// The mean, with Student's interval. A single value gives no interval; an empty sample gives no mean.
 std::optional<Estimate> mean_of(std::span<const double> sample);
 
-/// The ratio of the means of two paired samples, with Fieller's interval (1954), which takes the correlation
-/// of the pairs into account. There is no interval for a single pair, or if the mean of the denominators is
-/// not significantly above zero, because the interval is then unbounded. Empty if there are no pairs, or if
-/// that mean is zero. The spans have equal length.
+/// The ratio of the means of two paired samples, with Fieller's interval (1954), which accounts for the
+/// correlation of the pairs. The interval is missing for a single pair. It is also missing if the mean of the
+/// denominators is not significantly above zero, because the interval is unbounded then. Empty if there are
+/// no pairs or if that mean is zero. The spans have equal lengths.
 std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
                                        std::span<const double> denominators);
 
-/// The slope of the least-squares line through the points (x, y), with Student's interval; no interval for
-/// two points. Empty for fewer points, or if all x are equal. The spans have equal length.
+/// The slope of the least-squares line through the points (x, y), with Student's interval. Two points give no
+/// interval. Empty for fewer points, or if all x are equal. The spans have equal lengths.
 std::optional<Estimate> slope_of(std::span<const double> x, std::span<const double> y);
 
 /// The middle value, or the mean of the two middle values. Empty if there are no values.

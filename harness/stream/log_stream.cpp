@@ -5,7 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <system_error>
+#include <vector>
 
 namespace harness {
 

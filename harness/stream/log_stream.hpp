@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "harness/files/csv_reader.hpp"
 #include "harness/stream/recorded_log.hpp"

@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// How often each happened so far. [-]
+/// The counts so far. [-]
 struct ReadCounts {
   std::int64_t unknown_ids = 0;       // observations of an id that no table of the log has: left out
   std::int64_t robots = 0;            // observations of another robot: left out

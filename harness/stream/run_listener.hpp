@@ -10,6 +10,7 @@
 #include <span>
 
 #include "harness/stream/stream.hpp"
+#include "seif/counts.hpp"
 
 namespace harness {
 
@@ -27,16 +28,8 @@ struct UpdateRecord {
   seif::Pose2 est_pose;                           // T_world_robot
   std::optional<Eigen::Matrix3d> est_covariance;  // (3 x 3) of the pose, if the filter has it at hand
   std::optional<seif::Pose2> true_pose;           // empty: not known
-  std::int64_t blocks_touched = 0;                // [-] by this update
-  int active_landmarks = 0;                       // [-]
-  std::int64_t links = 0;                         // [-]
-  std::int64_t relocations = 0;                   // [-] so far
-  std::int64_t gated = 0;                         // [-] observations left out so far
-  std::int64_t weakened = 0;                      // [-] observations with reduced weight so far
-  std::optional<double> mean_residual;            // [-] as in seif::Counts
-  std::optional<double> anchoring;                // [nat] so far
-  std::optional<double> innovation;               // [-] v' S^-1 v of this scan, as in seif::Counts
-  int innovation_degrees = 0;                     // [-] degrees of freedom
+  seif::Counts counts;                            // the filter's own, after the update
+  std::int64_t blocks_touched = 0;                // [-] by this update alone
   UpdateTimes times;
   /// What Estimator::associations() gives, for an estimator that names landmarks by itself. Valid during the
   /// call only.

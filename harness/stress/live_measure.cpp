@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "harness/stress/live_place.hpp"
 

@@ -1,6 +1,8 @@
 // The measured part of a stress test: everything live in Bullet, with a clock for each stage.
 #pragma once
 
+#include <atomic>
+
 #include "harness/stress/stress.hpp"
 #include "harness/stress/warm_start.hpp"
 

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include "harness/recording/recorder.hpp"
 #include "harness/simulation/simulated_stream.hpp"

@@ -1,6 +1,7 @@
 #include "harness/stress/stress_plot.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "harness/figures/figure_plot.hpp"
 #include "harness/figures/palette.hpp"

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "harness/figures/figure.hpp"
 #include "harness/stress/scaling.hpp"

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "harness/run/live_loop.hpp"
 #include "seif/registry.hpp"

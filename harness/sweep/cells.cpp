@@ -14,8 +14,8 @@ namespace harness {
 
 namespace {
 
-constexpr const char* done = ".json";
-constexpr const char* failed = ".failed";
+constexpr const char* done_suffix = ".json";
+constexpr const char* failed_suffix = ".failed";
 constexpr const char* unfinished = ".unfinished";
 
 /// The temporary path for a file that is to become `path`. No other living process uses the same one.
@@ -75,26 +75,28 @@ std::vector<CellState> CellFolder::states(std::size_t count) const {
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     const std::optional<std::size_t> index = index_of(entry.path());
     if (!index || *index >= count) continue;
-    if (entry.path().extension() == done) {
+    if (entry.path().extension() == done_suffix) {
       states[*index] = CellState::done;
-    } else if (entry.path().extension() == failed && states[*index] == CellState::open) {
+    } else if (entry.path().extension() == failed_suffix && states[*index] == CellState::open) {
       states[*index] = CellState::failed;
     }
   }
   return states;
 }
 
-std::string CellFolder::result(std::size_t index) const { return read_whole_file(path(index, done)); }
+std::string CellFolder::result(std::size_t index) const { return read_whole_file(path(index, done_suffix)); }
 
-std::string CellFolder::failure(std::size_t index) const { return read_whole_file(path(index, failed)); }
+std::string CellFolder::failure(std::size_t index) const {
+  return read_whole_file(path(index, failed_suffix));
+}
 
 void CellFolder::put_result(std::size_t index, std::string_view text) const {
-  write_durable_file(path(index, done), text);
-  std::filesystem::remove(path(index, failed));
+  write_durable_file(path(index, done_suffix), text);
+  std::filesystem::remove(path(index, failed_suffix));
 }
 
 void CellFolder::put_failure(std::size_t index, std::string_view reason) const {
-  write_durable_file(path(index, failed), reason);
+  write_durable_file(path(index, failed_suffix), reason);
 }
 
 std::filesystem::path CellFolder::path(std::size_t index, const char* extension) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/fnv1a.hpp"

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "harness/files/csv_writer.hpp"
 #include "harness/sweep/sweep.hpp"

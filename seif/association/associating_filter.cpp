@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace seif {
 namespace {
@@ -101,8 +102,8 @@ void AssociatingFilter::find_pairs(const Scan& scan) {
   const Eigen::Matrix3d P_x = pose_covariance_in_map();
   const std::size_t each = std::clamp(most_asked / std::max<std::size_t>(scan.observations.size(), 1),
                                       few_per_observation, most_per_observation);
-  for (const std::size_t most : {few_per_observation, each}) {
-    find_candidates(scan, P_x, most);
+  for (const std::size_t max_count : {few_per_observation, each}) {
+    find_candidates(scan, P_x, max_count);
     options_.jointly ? matcher_.match_jointly() : matcher_.match_nearest();
     if (matcher_.all_matched() || each == few_per_observation) return;
   }
@@ -119,12 +120,12 @@ Eigen::Matrix3d AssociatingFilter::pose_covariance_in_map() const {
   return P_x - J_wrt_start * start_.covariance * J_wrt_start.transpose();
 }
 
-void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most) {
+void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count) {
   asked_.clear();
   wanted_.clear();
   pairs_.clear();
   seen_.clear();
-  for (const Observation& observation : scan.observations) gather_near(observation, P_x, most);
+  for (const Observation& observation : scan.observations) gather_near(observation, P_x, max_count);
   const auto n = static_cast<Eigen::Index>(3 + 2 * asked_.size());
   if (Sigma_.rows() < n) Sigma_.resize(2 * n, 2 * n);
   belief_.covariance_with(asked_, Sigma_.topLeftCorner(n, n));
@@ -141,7 +142,7 @@ void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d&
 /// The landmarks about where the observation says that something is, as far away as pose, landmark and sensor
 /// may err.
 void AssociatingFilter::gather_near(const Observation& observation, const Eigen::Matrix3d& P_x,
-                                    std::size_t most) {
+                                    std::size_t max_count) {
   const InverseObservation inverse = invert_observation(filter_->pose(), T_robot_sensor_, observation);
   const Eigen::Matrix2d by_sensor =
       inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
@@ -151,7 +152,7 @@ void AssociatingFilter::gather_near(const Observation& observation, const Eigen:
       {inverse.p_world_landmark, largest_variance(by_sensor), std::sqrt(variance * matcher_.gate())});
   // The landmark is taken to be known no worse than this.
   const double radius = std::sqrt(2.0 * variance * matcher_.widest_gate());
-  grid_->find_near(inverse.p_world_landmark, radius, most, near_);
+  grid_->find_near(inverse.p_world_landmark, radius, max_count, near_);
   for (const LandmarkGrid::Near& near : near_) {
     if (belief_.is_at_hand(near.landmark))
       pairs_.push_back({static_cast<int>(seen_.size()) - 1, number_of(near.landmark)});

@@ -1,8 +1,7 @@
-// A filter that is not told which landmark it sees: names each observation before a filter with known
-// correspondence takes it in.
+// A filter for unknown association: names each observation before a filter with known association takes it in.
 //
-//   scan -> candidates near where each observation says that something is -> pairs -> named scan -> filter
-//                                                    nothing fits -> tentative -> a new landmark
+//   scan -> candidates near each observed position -> pairs -> named scan -> filter
+//                                     nothing fits -> tentative -> a new landmark
 #pragma once
 
 #include <cstdint>
@@ -22,23 +21,21 @@ namespace seif {
 
 struct AssociationOptions {
   bool jointly = true;  // JCBB, or each observation for itself
-  /// [-] With this probability a right pair is left out.
+  /// [-] The probability that a correct pair is rejected.
   double match_probability = 1e-3;
-  /// [-] An observation that is of no landmark, by its pairs, is taken for a new one only where a landmark is
-  /// as far away from it with no more than this probability. Between the two it says nothing.
+  /// [-] An unpaired observation is taken for a new landmark only if a known one is this far away with at most this
+  /// probability. Between the two gates an observation is ignored.
   double new_probability = 1e-6;
-  /// [-] With this probability two landmarks that are one are not found to be so, where but one of them is
-  /// seen.
+  /// [-] The probability that two landmarks which are one are not recognised, where only one of them is seen.
   double merge_probability = 1e-6;
   int admit_after = 3;    // [-] scans that saw it until a landmark joins the map
   int forget_after = 10;  // [-] scans that did not see it, until then, after which it is forgotten
-  /// [-] A landmark is taken out once it was seen in less than this share of the scans that should have seen
-  /// it.
+  /// [-] Removes a landmark that was seen in less than this share of the scans that should have seen it.
   double remove_below = 0.05;
 };
 
-/// Names are 0, 1, 2, .. in the order in which landmarks join. Those that were taken out, or are one with
-/// another, stay in the filter's belief but for its map, and are never seen again.
+/// Names are 0, 1, 2, .. in the order in which landmarks join. Removed and merged landmarks stay in the filter's
+/// belief, but not in its map, and are never observed again.
 class AssociatingFilter final : public Estimator {
  public:
   /// Throws std::invalid_argument if the filter has no local belief.
@@ -75,7 +72,7 @@ class AssociatingFilter final : public Estimator {
     double farthest = 0.0;  // [m] from which it was seen
     bool is_retired = false;
   };
-  /// Two landmarks that may be one, since only one of them is seen where both should be.
+  /// Two landmarks that may be one: only one of them is seen where both should be.
   struct Suspicion {
     LandmarkId a, b;
     int scans = 0;  // [-] that saw one of them; many below zero once both were seen at once
@@ -93,8 +90,8 @@ class AssociatingFilter final : public Estimator {
 
   void refresh_grid();
   void find_pairs(const Scan& scan);
-  void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t most);
-  void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t most);
+  void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);
+  void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t max_count);
   Eigen::Matrix3d pose_covariance_in_map() const;
   int number_of(LandmarkId id);
   bool want_near(const Seen& seen);
@@ -123,7 +120,7 @@ class AssociatingFilter final : public Estimator {
   double wander_ = 0.0;                        // [m^2] since the last scan
   double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]
 
-  // Of the latest scan; kept so that no update allocates.
+  // What belongs to the latest scan; kept so that no update allocates.
   std::vector<LandmarkId> names_;  // by observation
   Scan named_;
   std::vector<LandmarkId> at_hand_, asked_, wanted_;

@@ -1,9 +1,10 @@
-// Which landmark is this? Pairs the observations of a scan with landmarks that they may be of.
+// Data association: pairs the observations of a scan with landmarks.
 //
 // One pair is compatible if v' S^-1 v of its innovation v is inside the chi-square gate of two degrees of
-// freedom. A hypothesis of k pairs is, if the same of all innovations together is inside the gate of 2k: they
-// are correlated, for they come from one pose. Neira, Tardos, "Data association in stochastic mapping using
-// the joint compatibility test", IEEE Transactions on Robotics and Automation 17(6), 2001.
+// freedom. A hypothesis of k pairs is compatible if v' S^-1 v of all innovations together is inside the gate of 2k
+// degrees of freedom: the innovations are correlated, because they share the pose. Neira, Tardos, "Data
+// association in stochastic mapping using the joint compatibility test", IEEE Transactions on Robotics and
+// Automation 17(6), 2001.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,14 +19,14 @@ namespace seif {
 /// The value that a chi-square variable of 2 `pairs` degrees of freedom exceeds with this probability. [-]
 double chi_square_gate(int pairs, double probability);
 
-/// An observation as a filter expects it of a landmark.
+/// The observation that a filter expects of a landmark.
 struct ExpectedObservation {
   Eigen::Vector2d v = Eigen::Vector2d::Zero();    // innovation [m, rad]
   Matrix23 J_x = Matrix23::Zero();                // (2 x 3) wrt the pose
   Eigen::Matrix2d J_m = Eigen::Matrix2d::Zero();  // (2 x 2) wrt the landmark
 };
 
-/// An observation and a landmark that it may be of.
+/// An observation and a candidate landmark.
 struct Candidate {
   int observation = 0;  // its number in the scan
   int landmark = 0;     // its number in the joint covariance
@@ -35,32 +36,32 @@ struct Candidate {
   double cost = 0.0;                            // [-] twice its negative log-likelihood, but for a constant
 };
 
-/// Finds the pairs of one scan after another. Keeps its memory, so that none of them allocates in the steady
-/// state.
+/// Finds the pairs of one scan after another. Keeps its memory, so that no scan allocates in the steady state.
 class ScanMatcher {
  public:
   static constexpr int none = -1;
 
-  /// A right pair is left out with `match_probability`, and taken for a landmark never seen before with no
-  /// more than `new_probability`. The search for joint pairs ends after `most_steps`, with the best so far.
+  /// A correct pair is rejected with probability `match_probability`, and its observation is taken for a new landmark
+  /// with at most `new_probability`. The search for joint pairs ends after `most_steps`, with the best so far.
   ScanMatcher(double match_probability, double new_probability, int most_steps = 2000);
 
-  /// `Sigma` is the covariance of [pose | landmarks] (3+2m x 3+2m), and has to live until the scan is done
-  /// with.
+  /// `Sigma` is the covariance of [pose | landmarks] (3+2m x 3+2m), and must live until the end of
+  /// the scan.
   void begin(int observations, const Eigen::Ref<const Eigen::MatrixXd>& Sigma);
-  /// A pair to be thought of; `Q` is the covariance of the observation. Returns its v' S^-1 v.
+  /// Adds a candidate pair; `Q` is the covariance of the observation. Returns its v' S^-1 v.
   double add(int observation, int landmark, const ExpectedObservation& expected, const Eigen::Matrix2d& Q);
 
-  /// The most likely compatible pairs first, each observation and each landmark at most once.
+  /// Chooses the most likely compatible pairs first, each observation and each landmark at most once.
   void match_nearest();
-  /// The most pairs that are compatible all together, and of as many those with the least distance.
+  /// Chooses the largest set of pairs that are compatible together; of equally large sets the one with the least
+  /// distance.
   void match_jointly();
 
   /// The landmark that an observation was paired with, or none.
   int match(int observation) const { return match_[static_cast<std::size_t>(observation)]; }
   bool all_matched() const { return std::ranges::find(match_, none) == match_.end(); }
-  /// Whether an observation that was paired with none may still be of a landmark, given all pairs: of one
-  /// that was not paired either, or as a second observation of one that was.
+  /// Whether an unpaired observation may still be of a landmark, given all pairs: of an unpaired one, or as a second
+  /// observation of a paired one.
   bool may_be_known(int observation);
   double gate() const { return gate(1); }  // [-] of one pair
   double widest_gate() const { return std::max(far_, gate(1)); }

@@ -96,7 +96,7 @@ void LandmarkGrid::for_each_in_ring(const Cell& centre, int ring, Visit&& visit)
   }
 }
 
-void LandmarkGrid::find_near(const Eigen::Vector2d& p_world, double radius, std::size_t most,
+void LandmarkGrid::find_near(const Eigen::Vector2d& p_world, double radius, std::size_t max_count,
                              std::vector<Near>& out) const {
   out.clear();
   if (!p_world.allFinite() || landmarks_.size() == 0) return;
@@ -104,7 +104,7 @@ void LandmarkGrid::find_near(const Eigen::Vector2d& p_world, double radius, std:
   for (int ring = 0; ring <= most_rings; ++ring) {
     // Whatever is in this ring is at least so far away.
     const double least = (ring - 1) * cell_;
-    if (least > radius || (out.size() >= most && out[most - 1].distance <= least)) break;
+    if (least > radius || (out.size() >= max_count && out[max_count - 1].distance <= least)) break;
     for_each_in_ring(centre, ring, [&](int i) {
       const double distance = (landmark(i).p_world - p_world).norm();
       if (distance <= radius) out.push_back({i, distance});
@@ -112,7 +112,7 @@ void LandmarkGrid::find_near(const Eigen::Vector2d& p_world, double radius, std:
     std::ranges::sort(out, [](const Near& a, const Near& b) {
       return a.distance != b.distance ? a.distance < b.distance : a.landmark < b.landmark;
     });
-    if (out.size() > most) out.resize(most);
+    if (out.size() > max_count) out.resize(max_count);
   }
 }
 

@@ -1,4 +1,4 @@
-// Which landmarks lie near a place? A hash grid over the places where they were last known to be. The table
+// Finds the landmarks near a point: a hash grid over their last known positions. The table
 // grows by one list at a time (Litwin, "Linear hashing", VLDB 1980), so no landmark that joins costs a pass
 // over the others.
 #pragma once
@@ -20,17 +20,17 @@ class LandmarkGrid {
     double distance = 0.0;  // [m]
   };
 
-  /// Cells of this width [m]. Landmarks have the ids 0, 1, 2, .. in the order in which they come.
+  /// Cells of this width [m]. Landmarks have the ids 0, 1, 2, .. in the order in which they are added.
   explicit LandmarkGrid(double cell) : cell_(cell) { lists_.push_back(none); }
 
-  /// The next landmark.
+  /// Adds the next landmark.
   void add(const Eigen::Vector2d& p_world);
   void move(LandmarkId landmark, const Eigen::Vector2d& p_world);
   void remove(LandmarkId landmark);
 
-  /// The nearest ones within `radius` [m], the nearest first, at most `most`; replaces what `out` held. Looks
+  /// The nearest ones within `radius` [m], the nearest first, at most `max_count`; replaces what `out` held. Looks
   /// no farther than `most_rings` cells away.
-  void find_near(const Eigen::Vector2d& p_world, double radius, std::size_t most,
+  void find_near(const Eigen::Vector2d& p_world, double radius, std::size_t max_count,
                  std::vector<Near>& out) const;
 
   std::size_t memory_bytes() const { return lists_.memory_bytes() + landmarks_.memory_bytes(); }

@@ -1,4 +1,4 @@
-// What data association asks of a filter: its belief over the landmarks near the robot, in bounded work.
+// The belief over the landmarks near the robot, in bounded work, for data association.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@
 
 namespace seif {
 
-/// A filter that can tell offers this by Estimator::local_belief().
+/// Filters that can compute it return this from Estimator::local_belief().
 class LocalBelief {
  public:
   virtual ~LocalBelief() = default;
 
-  /// Before the belief is asked for, after all motions. May throw NumericalFailure.
+  /// To be called before the other functions, after all motions. May throw NumericalFailure.
   virtual void begin_association(double t) = 0;
 
-  /// The landmarks about which the filter can tell now; replaces what `out` held.
+  /// The landmarks at hand: those whose belief the filter can compute now. Replaces the content of `out`.
   virtual void landmarks_at_hand(std::vector<LandmarkId>& out) const = 0;
   virtual bool is_at_hand(LandmarkId landmark) const = 0;
 

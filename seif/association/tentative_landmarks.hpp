@@ -1,5 +1,5 @@
-// Places where something was seen that is not in the map: a landmark once it was seen there often enough,
-// before that perhaps a false detection. A bounded list; what is not seen again soon is forgotten.
+// Positions at which something was seen that is not in the map. It becomes a landmark when it was seen often enough;
+// before that it may be a false detection. The list is bounded, and what is not seen again soon is forgotten.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,31 +10,33 @@ namespace seif {
 
 class TentativeLandmarks {
  public:
-  /// Something as it stands in the list.
+  /// The result of a sighting: how often it was seen, and for how many scans.
   struct Sighting {
     int times = 0;  // [-] scans that saw it, this one too
     int age = 0;    // [-] scans since the first that did
   };
 
-  /// Forgets what was not seen in so many scans.
-  explicit TentativeLandmarks(int forget_after) : forget_after_(forget_after) { places_.reserve(most); }
+  /// Forgets what was not seen for `forget_after` scans.
+  explicit TentativeLandmarks(int forget_after) : forget_after_(forget_after) {
+    tentative_.reserve(most_tentative);
+  }
 
-  /// The next scan. `wander` is by how much the robot may have gone astray since the last one [m^2].
+  /// Begins the next scan. `wander`: variance that the robot's motion since the last scan adds. [m^2]
   void begin_scan(double wander);
 
-  /// Something seen at p_world [m], known by itself to within `variance` [m^2]. Joins the nearest place
+  /// Something seen at p_world [m], known by itself to within `variance` [m^2]. Joins the nearest tentative landmark
   /// inside the gate that was not seen in this scan, or becomes a new one.
   Sighting see(const Eigen::Vector2d& p_world, double variance, double gate);
 
-  /// What was seen last is in the map now.
-  void admit_last() { places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(last_)); }
+  /// The landmark seen last is in the map now.
+  void admit_last() { tentative_.erase(tentative_.begin() + static_cast<std::ptrdiff_t>(last_)); }
 
-  std::size_t size() const { return places_.size(); }
-  std::size_t memory_bytes() const { return places_.capacity() * sizeof(Place); }
+  std::size_t size() const { return tentative_.size(); }
+  std::size_t memory_bytes() const { return tentative_.capacity() * sizeof(Tentative); }
 
  private:
-  static constexpr std::size_t most = 128;  // [-] places; beyond that the one longest not seen goes
-  struct Place {
+  static constexpr std::size_t most_tentative = 128;  // [-] beyond that the one longest not seen goes
+  struct Tentative {
     Eigen::Matrix<double, 2, 1, Eigen::DontAlign> p_world;  // [m]
     double variance;                                        // [m^2]
     int times;                                              // [-]
@@ -45,7 +47,7 @@ class TentativeLandmarks {
   int forget_after_;  // [-] scans
   int scan_ = 0;
   std::size_t last_ = 0;
-  std::vector<Place> places_;
+  std::vector<Tentative> tentative_;
 };
 
 }  // namespace seif

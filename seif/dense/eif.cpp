@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "seif/couplings.hpp"

@@ -1,7 +1,10 @@
-// The dense extended information filter: exact up to linearisation; the oracle for all that is sparse.
+// The dense extended information filter: exact up to linearisation; the reference for the sparse filters.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "seif/estimator.hpp"
@@ -31,7 +34,7 @@ class Eif final : public Estimator {
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override;
 
-  /// The whole belief, for oracles: (3+2N x 3+2N) and (3+2N x 1), landmarks in the order in which they
+  /// The whole belief, for tests: (3+2N x 3+2N) and (3+2N x 1), landmarks in the order in which they
   /// joined.
   const Eigen::MatrixXd& Omega() const { return Omega_; }
   const Eigen::VectorXd& mu() const { return mu_; }

@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "seif/couplings.hpp"

@@ -1,7 +1,10 @@
-// The dense EKF: the baseline, as strong as we can write it.
+// The dense EKF: the baseline.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,11 +16,10 @@
 namespace seif {
 
 struct EkfOptions {
-  /// [-] An observation of a known landmark is left out if its innovation v has v' S^-1 v above this; 0:
-  /// never.
+  /// [-] Ignores an observation of a known landmark with v' S^-1 v above this. 0: never.
   double gate = 0.0;
-  /// [sigma] An observation of a known landmark whose innovation has sqrt(v' S^-1 v) above this gets a larger
-  /// covariance, by how many times it is above it, which is Huber's weight; 0: never.
+  /// [sigma] Enlarges the covariance of an observation with sqrt(v' S^-1 v) above this, by the ratio of the two:
+  /// Huber's weight. 0: never.
   double robust_above = 0.0;
 };
 
@@ -53,7 +55,7 @@ class Ekf final : public Estimator, public LocalBelief {
   void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
   void equate(LandmarkId a, LandmarkId b) override;
 
-  /// The whole belief, for oracles: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
+  /// The whole belief, for tests: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
   Eigen::VectorXd mu() const { return mu_.head(size()); }
   Eigen::MatrixXd Sigma() const;
 

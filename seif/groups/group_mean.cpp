@@ -1,5 +1,7 @@
 #include "seif/groups/group_mean.hpp"
 
+#include <vector>
+
 namespace seif {
 
 bool GroupMean::activate(InformationState& state, std::vector<int>& slots, double /*range*/) {

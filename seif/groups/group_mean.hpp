@@ -1,5 +1,9 @@
-// The mean by rigid groups of landmarks of every size, as Seif asks for it.
+// Mean recovery by rigid groups of landmarks of every size, for Seif.
 #pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "seif/groups/multilevel_mean.hpp"
 #include "seif/mean_keeper.hpp"

@@ -1,21 +1,20 @@
 // Recovers the mean in steps of bounded work, by rigid motions of groups of landmarks of every size.
 //
-// Relaxing landmark after landmark hardly moves an error that is smooth over many of them. So landmarks are
-// gathered in groups of about ten, these in larger groups, and so on, and a group of any level can be moved
-// as a rigid body:
+// Relaxing one landmark after another hardly reduces an error that is smooth over many of them. So landmarks form
+// groups of about ten, these form larger groups, and so on. A group of any level can be moved as a rigid body:
 //
 //   level 2               [        a        ]        by (t, phi) about the group's centre c:
 //   level 1        [    b    ][    c    ][    d    ]    p <- p + t + phi J (p - c)
 //   landmarks      o o o o o o o o o o o o o o o o
 //
-// A level's equations are Galerkin's: A = B' Omega B and R = B' r, the columns of B being the rigid motions
-// of its groups, and the robot following the landmarks. No motion is carried out before somebody looks: the
-// mean of a passive landmark is what is stored of it, plus what its groups have moved since. So a step costs
-// the same in any map, but for the number of levels, which grows with its logarithm.
+// The equations of a level are Galerkin's: A = B' Omega B and R = B' r. The columns of B are the rigid motions of
+// its groups; the robot follows the landmarks. A motion is applied when a mean is read: the mean of a passive
+// landmark is its stored mean plus the motions of its groups since. So a step costs the same in any map, except
+// for the number of levels, which grows with the logarithm of the map.
 //
-// Glossary: d motion of a group (3), total: with the groups above it; q force, the dual of a motion (3);
-//           missing: what the stored mean of a passive landmark lacks; pull: what this does to the r of
-//           others.
+// Glossary: d: motion of a group (3); total: d with the motions of the groups above; q: force, the dual of a motion
+//           (3); missing: the present mean of a passive landmark minus the stored one; pull: the effect of missing
+//           on the r of other landmarks.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,17 +37,17 @@ class MultilevelMean {
  public:
   explicit MultilevelMean(const MultilevelOptions& options) : options_(options) {}
 
-  /// A landmark that has just joined the map: into a group with landmarks that are active.
+  /// Puts a landmark that has just joined the map into a group of active landmarks.
   void join(const InformationState& state, int slot);
 
-  /// Takes a passive landmark into the window, with its mean as it is now.
+  /// Takes a passive landmark into the window, with its present mean.
   void activate(InformationState& state, int slot);
 
-  /// p_world_landmark with all that its groups have moved. [m]
+  /// p_world_landmark, with the motions of its groups. [m]
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
 
   /// Before and after a scan's information is added; all known landmarks that it sees are active both times.
-  /// What the groups know of each other changes by the difference.
+  /// The equations of the groups change by the difference.
   /// False if the robot's block is not positive definite.
   [[nodiscard]] bool before_information(const InformationState& state);
   [[nodiscard]] bool after_information(const InformationState& state);
@@ -57,12 +56,12 @@ class MultilevelMean {
   /// window's Omega is not positive definite.
   [[nodiscard]] bool solve_window(InformationState& state);
 
-  /// Moves the groups about the window and a few others, from the largest to the smallest, then single
+  /// Moves the groups around the window and a few others, from the largest to the smallest, then single
   /// landmarks, then solves for the window again. False as above.
   [[nodiscard]] bool correct(InformationState& state);
 
-  /// Sum of R' A^-1 R over the groups of level 1, each as it was when last touched: bounds the squared error
-  /// of the mean, in units of sigma, from below up to a factor of one and the most neighbours of a group. [-]
+  /// Sum of R' A^-1 R over the groups of level 1, each as it was when last touched [-]. Divided by one plus the
+  /// largest number of neighbours of a group, it is a lower bound of the squared error of the mean in sigma.
   double residual() const { return residual_; }
 
   std::int64_t blocks_touched() const { return blocks_touched_; }
@@ -104,7 +103,7 @@ class MultilevelMean {
   void relax_landmarks(InformationState& state, int i);
   void relax_landmark(InformationState& state, int slot);
   [[nodiscard]] bool carry_window(InformationState& state);
-  /// (w x 1) of what step_ has room for.
+  /// The first w entries of step_ (w x 1).
   Eigen::VectorXd::SegmentReturnType window_step(const InformationState& state);
 
   MultilevelOptions options_;

@@ -1,5 +1,5 @@
-// Arrays of numbers that are handed from one owner to the next and come back when nobody wants them. What
-// asks for arrays of changing sizes again and again asks the heap for none, once the pool has seen its worst.
+// Arrays of numbers that pass from owner to owner and return to their pool. A user that needs arrays of changing
+// sizes again and again allocates nothing, once the pool has grown to the largest need.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace seif {
 
 class ArrayPool {
  public:
-  /// Goes back to its pool when it goes; the pool must live longer.
+  /// Returns to its pool on destruction; the pool must live longer.
   class Array {
    public:
     Array() = default;
@@ -56,7 +56,7 @@ class ArrayPool {
   ArrayPool(const ArrayPool&) = delete;
   ArrayPool& operator=(const ArrayPool&) = delete;
 
-  /// What stands in it is anybody's guess.
+  /// The values are undefined.
   Array take(std::size_t size) {
     if (size == 0) return {};
     Shelf& shelf = shelf_of(size);
@@ -66,11 +66,11 @@ class ArrayPool {
     return {this, std::move(memory), size};
   }
 
-  /// Of all arrays, in use or not.
+  /// The memory of all arrays, in use or not.
   std::size_t memory_bytes() const { return bytes_; }
 
  private:
-  /// Arrays of one capacity. From shelf to shelf it grows by a seventh to a quarter.
+  /// Arrays of one capacity. The capacity grows by a seventh to a quarter from shelf to shelf.
   struct Shelf {
     std::vector<std::unique_ptr<double[]>> free;
     std::size_t made = 0;

@@ -1,6 +1,8 @@
 // What must hold of a condensation tree between updates.
 #include <algorithm>
+#include <optional>
 #include <sstream>
+#include <string>
 
 #include "seif/tree/condensation_tree.hpp"
 
@@ -34,7 +36,7 @@ std::ptrdiff_t times_settled(const Condensed& message, FrontVariable variable) {
 std::optional<std::string> CondensationTree::broken_invariant(const InformationState& state) const {
   for (int h = 0; h < zone_.size(); ++h) {
     const int slot = zone_.slot(h);
-    if (place(slot).hot != h) return broken("landmark ", slot, " does not know its place in the zone");
+    if (landmark(slot).zone_index != h) return broken("landmark ", slot, " has another index in the zone");
     if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
   }
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
@@ -50,9 +52,10 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
 }
 
 std::optional<std::string> CondensationTree::broken_landmark(const InformationState& state, int slot) const {
-  const CondensedLandmark& p = place(slot);
+  const CondensedLandmark& p = landmark(slot);
   const bool is_hot = node(p.leaf).hot;
-  if (is_hot != (p.hot != none)) return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
+  if (is_hot != (p.zone_index != none))
+    return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
   if (is_hot) return std::nullopt;
   if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
   if (times_settled(sent(p.settled_at).message, slot) != 1)

@@ -3,13 +3,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
 
-int CondensationTree::node_of(FrontVariable v) const { return is_group(v) ? ~v : place(v).leaf; }
+int CondensationTree::node_of(FrontVariable v) const { return is_group(v) ? ~v : landmark(v).leaf; }
 
 /// How far a group is from the next hot leaves, over its size.
 double CondensationTree::distance_ratio(int group) {
@@ -29,7 +30,7 @@ double CondensationTree::distance_ratio(int group) {
 /// front has it in a group already, it goes where that goes. Whether a group may be is the same for all that
 /// stand below its node: a front has all of them in it, or none.
 int CondensationTree::group_for(FrontVariable v, double ratio) {
-  if (!is_group(v) && node(place(v).leaf).next_hot) return none;
+  if (!is_group(v) && node(landmark(v).leaf).next_hot) return none;
   const bool may_be_tied = groups_allowed_ && ratio < std::numeric_limits<double>::infinity();
   int chosen = none;
   for (int n = node_of(v); n != none; n = tree_.parent(n)) {

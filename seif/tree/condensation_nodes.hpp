@@ -1,4 +1,4 @@
-// What the condensation tree keeps of each landmark and of each node.
+// The records of the condensation tree: one for each landmark, one for each node.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,13 +19,13 @@ struct CondensedLandmark {
   int leaf = none;
   int next = none;        // slot of the next landmark of the leaf
   int leaves = 0;         // [-] that mention it, if it is cold
-  int hot = none;         // its place in the zone
+  int zone_index = none;  // in the zone, or none
   int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
   int visit = 0;
   int row = 0;                         // in the part that is being looked at
   Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
   mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
-  Point loose = Point::Zero();         // what no message holds of its residual
+  Point untold = Point::Zero();        // the part of its residual that is in no message
 };
 
 /// All landmarks below a node, where they move as one rigid body.
@@ -44,8 +44,8 @@ struct LandmarkGroup {
   int members = 0;                       // [-] these
 };
 
-/// What a node sends towards the hub; the hub's goes to the zone. A bare node lets through what comes to it;
-/// a bare leaf that is cold sends its blocks of Omega as they are.
+/// The message of a node towards the hub; the hub's own goes to the zone. A bare node passes on the messages that
+/// it gets; a bare cold leaf sends its blocks of Omega unchanged.
 struct SentMessage {
   Condensed message;
   bool is_bare = true;
@@ -60,19 +60,19 @@ struct SentMessage {
   }
 };
 
-/// A node of the tree; an epoch ends with whatever changes a mean, or how it is held.
+/// A node of the tree. An epoch ends with anything that changes a mean, or where it is stored.
 struct CondensationNode {
   static constexpr int none = -1;
 
   SentMessage sent;                  // nothing while it is the hub: see CondensationTree::sent()
   int stale_in = 0;                  // number of the plan that has it send anew
-  int planned = none;                // place among the messages of that plan
+  int planned = none;                // index among the messages of that plan
   mutable std::int64_t read_at = 0;  // epoch
   LandmarkGroup group;
   double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size
   int distance_known_in = 0;    // number of the plan that knows it
 
-  // Of leaves.
+  // For leaves.
   int first_landmark = none;  // slot
   int landmarks = 0;          // [-]
   bool hot = false;
@@ -81,7 +81,7 @@ struct CondensationNode {
   int used = 0;  // scan that last had a landmark of it in the window
 };
 
-/// The next zone, and the messages that it needs, while these are made ready.
+/// The next zone, and the messages that it needs, while they are prepared.
 struct CondensationPlan {
   bool is_running = false;
   int number = 0;                    // of all plans so far

@@ -1,6 +1,9 @@
 // Which leaves are to be hot next, and which messages have to be sent anew for that.
 #include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
@@ -39,9 +42,9 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
     landmarks += node(leaf).landmarks;
     chosen.push_back(leaf);
   };
-  for (int p = 0; p < state.active_count(); ++p) want(place(state.active(p)).leaf);
-  for (const int slot : slots) want(place(slot).leaf);
-  for (const int slot : wanted_) want(place(slot).leaf);
+  for (int p = 0; p < state.active_count(); ++p) want(landmark(state.active(p)).leaf);
+  for (const int slot : slots) want(landmark(slot).leaf);
+  for (const int slot : wanted_) want(landmark(slot).leaf);
   const std::optional<Pose2> elsewhere = other_linearisation_pose(state);
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once
@@ -103,7 +106,7 @@ int CondensationTree::mark_plan() {
 void CondensationTree::prepare_plan(const InformationState& state, int hub) {
   for (const int leaf : changed_) {
     if (node(leaf).next_hot) continue;
-    for_each_landmark(leaf, [&](int slot) { place(slot).leaves = count_leaves(state, slot); });
+    for_each_landmark(leaf, [&](int slot) { landmark(slot).leaves = count_leaves(state, slot); });
   }
   for (const int at : plan_.stale) {
     note_groups(at);
@@ -176,9 +179,9 @@ void CondensationTree::note_groups(int at) {
 /// How many leaves mention a passive landmark: its own, and those before it that own a block of it.
 int CondensationTree::count_leaves(const InformationState& state, int slot) const {
   owners_.clear();
-  owners_.push_back(place(slot).leaf);
+  owners_.push_back(landmark(slot).leaf);
   state.for_each_neighbour(slot, [&](int other, const auto&) {
-    const int leaf = place(other).leaf;
+    const int leaf = landmark(other).leaf;
     if (leaf < owners_.front() && std::ranges::find(owners_, leaf) == owners_.end()) owners_.push_back(leaf);
   });
   return static_cast<int>(owners_.size());

@@ -1,5 +1,6 @@
 // The messages of a plan, made ready: each node's front filled and condensed. What they hold of the residual
 // comes when the zone moves (condensation_switching.cpp).
+#include <cstdint>
 #include <limits>
 
 #include "seif/tree/condensation_tree.hpp"
@@ -56,7 +57,7 @@ void CondensationTree::gather(int at) {
 
 /// The place of a landmark in the boundary of a part that is being listed.
 int CondensationTree::listed(Condensed& part, int slot, int balance) {
-  Place& p = place(slot);
+  CondensedLandmark& p = landmark(slot);
   if (p.visit != visit_) {
     p.visit = visit_;
     p.row = static_cast<int>(part.boundary.size());
@@ -70,7 +71,7 @@ int CondensationTree::listed(Condensed& part, int slot, int balance) {
 void CondensationTree::list_leaf(const InformationState& state, int leaf, Condensed& part) {
   ++visit_;
   const auto listed_at = [&](int slot) {
-    return listed(part, slot, place(slot).leaf == leaf ? 1 - place(slot).leaves : 1);
+    return listed(part, slot, landmark(slot).leaf == leaf ? 1 - landmark(slot).leaves : 1);
   };
   for_each_owned_block(state, leaf, [&](int slot, int other, const auto& Omega_so) {
     ++blocks_touched_;
@@ -88,7 +89,7 @@ void CondensationTree::list_links(const InformationState& state) {
     for_each_landmark(leaf, [&](int slot) {
       state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
         ++blocks_touched_;
-        const int leaf_of_other = place(other).leaf;
+        const int leaf_of_other = landmark(other).leaf;
         if (leaf_of_other < leaf || node(leaf_of_other).next_hot) return;
         const int i = listed(links_, slot, 0);
         links_.S_blocks.push_back({.i = i, .j = listed(links_, other, 0), .Omega_ij = Omega_so});
@@ -99,7 +100,7 @@ void CondensationTree::list_links(const InformationState& state) {
 
 /// Whether all blocks of a variable are in the front of a node. At the hub those of all cold ones are.
 bool CondensationTree::is_complete(int at, FrontVariable v, int balance) const {
-  const bool is_cold = is_group(v) || !node(place(v).leaf).next_hot;
+  const bool is_cold = is_group(v) || !node(landmark(v).leaf).next_hot;
   const int next = tree_.planned_towards(at);
   if (next == none || !is_cold) return is_cold;
   if (balance != 0) return false;

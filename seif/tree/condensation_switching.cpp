@@ -65,7 +65,7 @@ void CondensationTree::take_from_loose() {
     Eigen::Index row = 0;
     for (const Condensed::Member& member : m.boundary) {
       const FrontVariable v = member.variable;
-      if (!is_group(v) && place(v).hot != none) place(v).loose -= r.segment<2>(row);
+      if (!is_group(v) && landmark(v).zone_index != none) landmark(v).untold -= r.segment<2>(row);
       row += freedom(v);
     }
   });
@@ -74,10 +74,10 @@ void CondensationTree::take_from_loose() {
 /// What no message holds of the residual: of hot landmarks, and where hot leaves have blocks with cold ones.
 void CondensationTree::note_zone_residual(const InformationState& state) {
   for (int h = 0; h < zone_.size(); ++h) {
-    Place& p = place(zone_.slot(h));
+    CondensedLandmark& p = landmark(zone_.slot(h));
     const int position = state.position(zone_.slot(h));
-    p.loose.setZero();
-    if (position >= 0) p.loose = state.r().segment<2>(InformationState::row_of(position));
+    p.untold.setZero();
+    if (position >= 0) p.untold = state.r().segment<2>(InformationState::row_of(position));
   }
   take_from_loose();
   const Condensed& to_zone = sent(tree_.hub()).message;
@@ -88,8 +88,8 @@ void CondensationTree::note_zone_residual(const InformationState& state) {
   for (const Condensed::Member& member : to_zone.boundary) {
     const int slot = member.variable;
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (place(other).hot != none || place(other).leaf < place(slot).leaf) return;
-      place(other).loose -= Omega_so.transpose() * d.segment<2>(row);
+      if (landmark(other).zone_index != none || landmark(other).leaf < landmark(slot).leaf) return;
+      landmark(other).untold -= Omega_so.transpose() * d.segment<2>(row);
     });
     row += 2;
   }
@@ -101,16 +101,16 @@ void CondensationTree::loosen(int leaf) {
   const auto r = residual_of(leaf);
   Eigen::Index row = 0;
   for (const Condensed::Member& member : m.boundary) {
-    place(member.variable).loose += r.segment<2>(row);
+    landmark(member.variable).untold += r.segment<2>(row);
     row += 2;
   }
 }
 
 void CondensationTree::switch_leaves() {
   for (int h = 0; h < zone_.size(); ++h) {
-    Place& p = place(zone_.slot(h));
+    CondensedLandmark& p = landmark(zone_.slot(h));
     p.read = zone_read_.segment<2>(2 * h);
-    p.hot = none;
+    p.zone_index = none;
   }
   for (const int leaf : hot_leaves_) node(leaf).hot = node(leaf).next_hot;
   for (const int leaf : plan_.hot_leaves) node(leaf).hot = true;
@@ -123,11 +123,11 @@ void CondensationTree::switch_leaves() {
 /// A planned message, after those that it depends on.
 void CondensationTree::tell_residual(int at) {
   Condensed& message = plan_.messages[static_cast<std::size_t>(node(at).planned)].message;
-  for (Condensed::Tie& tie : message.tied) as_read(tie.variable, tie.reference.data());
+  for (Condensed::Tie& tie : message.tied) read_mean(tie.variable, tie.reference.data());
   message.reference.resize(static_cast<std::size_t>(message.b));
   double* reference = message.reference.data();
   for (const Condensed::Member& m : message.boundary) {
-    as_read(m.variable, reference);
+    read_mean(m.variable, reference);
     reference += freedom(m.variable);
   }
   condense_residual(at, message);
@@ -155,8 +155,8 @@ void CondensationTree::settle(FrontVariable v, int at) {
     group.settled_at = at;
     group.mean = group.read;
   } else {
-    place(v).settled_at = at;
-    place(v).mean = place(v).read;
+    landmark(v).settled_at = at;
+    landmark(v).mean = landmark(v).read;
   }
 }
 
@@ -167,8 +167,8 @@ void CondensationTree::condense_residual(int at, Condensed& message) {
   if (is_hub || tree_.is_leaf(at)) {
     const auto add_loose = [&](FrontVariable v) {
       if (is_group(v)) return;
-      front_.add_residual(v, place(v).loose);
-      if (!is_hub) place(v).loose.setZero();
+      front_.add_residual(v, landmark(v).untold);
+      if (!is_hub) landmark(v).untold.setZero();
     };
     for (const FrontVariable v : message.eliminated) add_loose(v);
     for (const Condensed::Member& m : message.boundary) add_loose(m.variable);
@@ -200,29 +200,30 @@ bool CondensationTree::fill_zone(InformationState& state) {
   for (int h = 0; h < zone_.size(); ++h) take_into_zone(zone_.slot(h), h);
   for (const int leaf : hot_leaves_) {
     for_each_landmark(leaf, [&](int slot) {
-      if (place(slot).hot == none) take_into_zone(slot, zone_.add(slot, place(slot).read));
+      if (landmark(slot).zone_index == none) take_into_zone(slot, zone_.add(slot, landmark(slot).read));
     });
   }
-  zone_places_.clear();
+  zone_indices_.clear();
   for (int h = 0; h < zone_.size(); ++h) {
     const int slot = zone_.slot(h);
     if (state.position(slot) < 0) {
-      zone_places_.push_back(h);
+      zone_indices_.push_back(h);
       zone_.add_information(h, h, state.information(slot));
     }
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (other > slot && place(other).hot != none) zone_.add_information(h, place(other).hot, Omega_so);
+      if (other > slot && landmark(other).zone_index != none)
+        zone_.add_information(h, landmark(other).zone_index, Omega_so);
     });
   }
   zone_followed_at_ = ++epoch_;
-  if (!zone_places_.empty() && !zone_.eliminate(zone_places_)) return false;
+  if (!zone_indices_.empty() && !zone_.eliminate(zone_indices_)) return false;
   pull_zone(state, Eigen::Map<const Eigen::VectorXd>(to_zone.s.data(), to_zone.b));
   return true;
 }
 
 void CondensationTree::take_into_zone(int slot, int h) {
-  place(slot).hot = h;
-  zone_.set_mean(h, place(slot).read);
+  landmark(slot).zone_index = h;
+  zone_.set_mean(h, landmark(slot).read);
 }
 
 /// What is left of the residual s of the zone, now that nearer groups have been untied: those eliminated
@@ -230,11 +231,11 @@ void CondensationTree::take_into_zone(int slot, int h) {
 void CondensationTree::pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone) {
   reserve_boundary(2 * zone_.size());
   auto s = part_residual_.head(2 * zone_.size());
-  for (int h = 0; h < zone_.size(); ++h) s.segment<2>(2 * h) = place(zone_.slot(h)).loose;
+  for (int h = 0; h < zone_.size(); ++h) s.segment<2>(2 * h) = landmark(zone_.slot(h)).untold;
   s.head(to_zone.size()) = to_zone;
   for (int h = 0; h < zone_.size(); ++h) {
     Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-    for (const int p : zone_places_) pull -= zone_.block(h, p) * s.segment<2>(2 * p);
+    for (const int p : zone_indices_) pull -= zone_.block(h, p) * s.segment<2>(2 * p);
     const int position = state.position(zone_.slot(h));
     if (position < 0) {
       zone_.set_mean(h, zone_.mean(h) + pull);

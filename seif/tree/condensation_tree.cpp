@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace seif {
@@ -11,9 +12,9 @@ namespace seif {
 // Leaves.
 
 /// While a plan runs, a new leaf stands beside the tree.
-int CondensationTree::add_leaf(const Eigen::Vector2d& place) {
+int CondensationTree::add_leaf(const Eigen::Vector2d& p_world) {
   const int leaf = tree_.new_leaf();
-  tree_.widen(leaf, place);
+  tree_.widen(leaf, p_world);
   if (plan_.is_running) {
     plan_.new_leaves.push_back(leaf);
   } else {
@@ -39,7 +40,7 @@ int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const int leaf : hot_leaves_) {
     if (node(leaf).landmarks >= options_.most_in_leaf || !node(leaf).next_hot) continue;
-    const double distance = (zone_.mean(place(node(leaf).first_landmark).hot) - p).squaredNorm();
+    const double distance = (zone_.mean(landmark(node(leaf).first_landmark).zone_index) - p).squaredNorm();
     if (distance >= shortest) continue;
     shortest = distance;
     nearest = leaf;
@@ -49,8 +50,8 @@ int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
 
 void CondensationTree::join(const InformationState& state, int slot) {
   const int leaf = leaf_for(state.mean(slot));
-  places_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
-  place(slot).hot = zone_.add(slot, state.mean(slot));
+  landmarks_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
+  landmark(slot).zone_index = zone_.add(slot, state.mean(slot));
   node(leaf).first_landmark = slot;
   tree_.widen(leaf, state.mean(slot));
   ++node(leaf).landmarks;
@@ -64,29 +65,29 @@ bool CondensationTree::activate(InformationState& state, std::vector<int>& slots
   constexpr double kept = 0.99;  // of it, at a scan that sees less far
   view_ = std::max(range, kept * view_);
   note_travel(state);
-  for (int p = 0; p < state.active_count(); ++p) node(place(state.active(p)).leaf).used = scan_;
-  for (const int slot : slots) node(place(slot).leaf).used = scan_;
-  for (const int slot : wanted_) node(place(slot).leaf).used = scan_;
+  for (int p = 0; p < state.active_count(); ++p) node(landmark(state.active(p)).leaf).used = scan_;
+  for (const int slot : slots) node(landmark(slot).leaf).used = scan_;
+  for (const int slot : wanted_) node(landmark(slot).leaf).used = scan_;
   if (!plan_.is_running && choose_hot_leaves(state, slots)) begin_plan(state);
   wanted_.clear();
   if (plan_.is_running && !work_on_plan(state)) return false;
   waited_ += static_cast<std::int64_t>(std::erase_if(slots, [&](int slot) { return !is_ready(slot); }));
-  zone_places_.clear();
+  zone_indices_.clear();
   for (const int slot : slots) {
-    const int h = place(slot).hot;
-    if (state.position(slot) < 0 && std::ranges::find(zone_places_, h) == zone_places_.end()) {
-      zone_places_.push_back(h);
+    const int h = landmark(slot).zone_index;
+    if (state.position(slot) < 0 && std::ranges::find(zone_indices_, h) == zone_indices_.end()) {
+      zone_indices_.push_back(h);
     }
   }
-  if (zone_places_.empty()) return true;
+  if (zone_indices_.empty()) return true;
   follow_in_zone(state);
   ++epoch_;
-  if (!zone_.restore(zone_places_)) return false;
-  for (const int h : zone_places_) {  // its links to active landmarks are the window's from now on
+  if (!zone_.restore(zone_indices_)) return false;
+  for (const int h : zone_indices_) {  // its links to active landmarks are the window's from now on
     const int slot = zone_.slot(h);
     zone_.add_information(h, h, -state.information(slot));
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (state.position(other) >= 0) zone_.add_information(h, place(other).hot, -Omega_so);
+      if (state.position(other) >= 0) zone_.add_information(h, landmark(other).zone_index, -Omega_so);
     });
     state.set_mean(slot, zone_.mean(h));
     state.activate(slot);
@@ -96,7 +97,7 @@ bool CondensationTree::activate(InformationState& state, std::vector<int>& slots
 
 /// Whether a landmark may be active: in this zone and, if one is planned, in the next.
 bool CondensationTree::is_ready(int slot) const {
-  return place(slot).hot != none && node(place(slot).leaf).next_hot;
+  return landmark(slot).zone_index != none && node(landmark(slot).leaf).next_hot;
 }
 
 /// The zone moves once the messages are ready and have told their residuals.
@@ -121,28 +122,28 @@ bool CondensationTree::solve_all(InformationState& state) {
 bool CondensationTree::deactivate(const InformationState& state, std::span<const int> slots) {
   follow_in_zone(state);
   ++epoch_;
-  zone_places_.clear();
+  zone_indices_.clear();
   for (const int slot : slots) {
-    const int h = place(slot).hot;
-    zone_places_.push_back(h);
+    const int h = landmark(slot).zone_index;
+    zone_indices_.push_back(h);
     zone_.add_information(h, h, state.information(slot));
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      const int h_other = place(other).hot;
+      const int h_other = landmark(other).zone_index;
       if (h_other == none || !zone_.is_active(h_other)) return;  // stands in F already
       if (state.position(other) < 0 && other < slot) return;     // dropped too, and comes by itself
       zone_.add_information(h, h_other, Omega_so);
     });
   }
-  return zone_.eliminate(zone_places_);
+  return zone_.eliminate(zone_indices_);
 }
 
 /// The information on the active landmarks of all that is not in the window (w x w).
 void CondensationTree::add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const {
   for (int p = 0; p < state.active_count(); ++p) {
-    const int h = place(state.active(p)).hot;
+    const int h = landmark(state.active(p)).zone_index;
     for (int q = 0; q < state.active_count(); ++q) {
       Omega.block<2, 2>(InformationState::row_of(p), InformationState::row_of(q)) +=
-          zone_.block(h, place(state.active(q)).hot);
+          zone_.block(h, landmark(state.active(q)).zone_index);
     }
   }
 }
@@ -192,13 +193,13 @@ void CondensationTree::covariance(const InformationState& state, std::span<const
   Y.topLeftCorner<3, 3>().setIdentity();
   Eigen::Index col = 3;
   for (const int slot : slots) {
-    const int h = place(slot).hot;
+    const int h = landmark(slot).zone_index;
     if (const int p = state.position(slot); p >= 0) {
       Y.block<2, 2>(InformationState::row_of(p), col).setIdentity();
     } else {
       for (int p_active = 0; p_active < state.active_count(); ++p_active)
         Y.block<2, 2>(InformationState::row_of(p_active), col) =
-            -zone_.block(place(state.active(p_active)).hot, h);
+            -zone_.block(landmark(state.active(p_active)).zone_index, h);
     }
     col += 2;
   }
@@ -208,7 +209,7 @@ void CondensationTree::covariance(const InformationState& state, std::span<const
     for (std::size_t j = 0; j < slots.size(); ++j) {
       if (state.position(slots[i]) >= 0 || state.position(slots[j]) >= 0) continue;
       out.block<2, 2>(static_cast<Eigen::Index>(3 + 2 * i), static_cast<Eigen::Index>(3 + 2 * j)) -=
-          zone_.block(place(slots[i]).hot, place(slots[j]).hot);
+          zone_.block(landmark(slots[i]).zone_index, landmark(slots[j]).zone_index);
     }
   }
 }
@@ -222,13 +223,13 @@ const Eigen::VectorXd& CondensationTree::read_zone(const InformationState& state
   return zone_read_;
 }
 
-void CondensationTree::as_read(FrontVariable v, double* mean) const {
+void CondensationTree::read_mean(FrontVariable v, double* mean) const {
   if (is_group(v)) {
     Eigen::Map<Eigen::Vector3d>(mean, 3) = node(~v).group.read;
-  } else if (const int h = place(v).hot; h != none) {
+  } else if (const int h = landmark(v).zone_index; h != none) {
     Eigen::Map<Eigen::Vector2d>(mean, 2) = zone_read_.segment<2>(2 * h);
   } else {
-    Eigen::Map<Eigen::Vector2d>(mean, 2) = place(v).read;
+    Eigen::Map<Eigen::Vector2d>(mean, 2) = landmark(v).read;
   }
 }
 
@@ -251,7 +252,7 @@ void CondensationTree::read(const InformationState& state, int at) const {
       const LandmarkGroup& group = node(~v).group;
       group.read = group.mean + read_step_.segment<3>(row);
     } else {
-      place(v).read = place(v).mean + read_step_.segment<2>(row);
+      landmark(v).read = landmark(v).mean + read_step_.segment<2>(row);
     }
     row += freedom(v);
   }
@@ -261,7 +262,7 @@ void CondensationTree::read(const InformationState& state, int at) const {
     if (is_group(tie.variable)) {
       node(~tie.variable).group.read = tie.reference + Eigen::Vector3d(t.x(), t.y(), d(2));
     } else {
-      place(tie.variable).read = tie.reference.head<2>() + t;
+      landmark(tie.variable).read = tie.reference.head<2>() + t;
     }
   }
 }
@@ -284,7 +285,7 @@ void CondensationTree::find_step(const Condensed& message) const {
 void CondensationTree::step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const {
   Eigen::Index row = 0;
   for (const Condensed::Member& m : message.boundary) {
-    as_read(m.variable, &d(row));
+    read_mean(m.variable, &d(row));
     row += freedom(m.variable);
   }
   d -= Eigen::Map<const Eigen::VectorXd>(message.reference.data(), message.b);
@@ -292,9 +293,9 @@ void CondensationTree::step_of(const Condensed& message, Eigen::Ref<Eigen::Vecto
 
 Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) const {
   if (state.position(slot) >= 0) return state.mean(slot);
-  if (const int h = place(slot).hot; h != none) return read_zone(state).segment<2>(2 * h);
-  read(state, place(slot).settled_at);
-  return place(slot).read;
+  if (const int h = landmark(slot).zone_index; h != none) return read_zone(state).segment<2>(2 * h);
+  read(state, landmark(slot).settled_at);
+  return landmark(slot).read;
 }
 
 void CondensationTree::follow_in_zone(const InformationState& state) {
@@ -305,11 +306,11 @@ void CondensationTree::follow_in_zone(const InformationState& state) {
 }
 
 int CondensationTree::settled_at(FrontVariable v) const {
-  return is_group(v) ? node(~v).group.settled_at : place(v).settled_at;
+  return is_group(v) ? node(~v).group.settled_at : landmark(v).settled_at;
 }
 
 std::size_t CondensationTree::memory_bytes() const {
-  std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + places_.memory_bytes() +
+  std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + landmarks_.memory_bytes() +
                       front_.memory_bytes() + zone_.memory_bytes() + to_zone_.message.memory_bytes();
   for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].sent.message.memory_bytes();
   for (const SentMessage& planned : plan_.messages) bytes += sizeof(planned) + planned.message.memory_bytes();

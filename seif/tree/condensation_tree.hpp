@@ -1,23 +1,24 @@
-// Recovers the mean exactly: what lies far from the robot is condensed along a tree, once, and follows when
-// somebody looks.
+// Recovers the mean. Information far from the robot is condensed along a tree, once; means there are computed when
+// they are read.
 //
-//           o            Landmarks live in leaves of eight or so. Those about the robot are hot (*): their
-//        /     \         landmarks stand in the hub (HotZone). Every other node sends one message towards
-//      hub      o        the hub: the information of what lies behind it, after elimination of all that
-//     /   \    / \       nothing before it has a block with (Front). So a message changes only if a leaf
-//    0*   1*  2   3      behind it becomes hot or cold, or if the hub passes by.
+//           o            A leaf holds about eight landmarks. The leaves around the robot are hot (*): the hub
+//        /     \         (HotZone) holds their landmarks. Every other node sends one message towards the hub:
+//      hub      o        the information behind the node, after elimination of the landmarks that have no
+//     /   \    / \       block with anything before it (Front). So a message changes only if a leaf behind
+//    0*   1*  2   3      it becomes hot or cold, or if the hub moves past it.
 //
-// Omega changes in the window alone, and the window is hot. So an update solves for robot and active
-// landmarks with Omega + S, S what hub and messages know of them: the exact mean of all Omega. The others
-// follow by what their elimination has left. Where a front would grow too large, landmarks far from the robot
-// are tied to groups that move as one; what pulls at them is kept, and taken in once they are untied.
-// seif/README.md has more of it.
+// Omega changes in the window alone, and the window is hot. So an update solves for robot and active landmarks
+// with Omega + S, where S is the information of hub and messages: the exact mean of the whole Omega. The other
+// landmarks follow by back-substitution. Where a front would grow too large, landmarks far from the robot are
+// tied to groups that move as one body; their residuals are kept, and used when they are untied. seif/README.md
+// explains more.
 //
 // Glossary: a leaf owns a block Omega_ij if it is the older of the leaves of i and j; it mentions the
 //           landmarks of its blocks. A landmark is complete where all leaves that mention it have met.
 //           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,29 +35,28 @@ namespace seif {
 struct CondensationOptions {
   int most_in_leaf = 8;  // [-] landmarks of a leaf as it grows
   int most_hot = 24;     // [-] landmarks beyond which leaves without an active one do not stay hot
-  /// [-] Unknowns about one node beyond which landmarks far from the robot are tied together to rigid groups.
+  /// [-] Unknowns of a front above which landmarks far from the robot are tied to rigid groups.
   int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
-  /// [-] Blocks of messages that one update makes ready for the next zone, or more where the robot would be
-  /// there before it is ready, but at least one message. 0: all at once, as soon as a landmark is seen
-  /// outside of the zone.
+  /// [-] Blocks of messages that one update prepares for the next zone; more if the robot would arrive before the
+  /// zone is ready, and at least one message. 0: all at once, as soon as a landmark outside the zone is seen.
   int most_blocks = 5'000;
-  // In multiples of how far the robot sees:
+  // In multiples of the range that the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
   double zone_ahead = 1.35;   // and those so near are taken into the next one
 };
 
-/// All r of passive landmarks are zero at the means that it tells, but for those tied to groups; the state
-/// holds stale ones.
+/// The means of passive landmarks are those of mean(); the state holds old ones. At these means r is zero for all
+/// passive landmarks that are not tied to groups.
 class CondensationTree {
  public:
   CondensationTree(const CondensationOptions& options, const Pose2& start)
       : options_(options), tree_(start) {}
 
-  /// Before a scan is taken in: takes the landmarks that it sees into the window, with their means as they
-  /// are now. `slots` loses those that have to wait, since the zone is on its way to them, or away from them.
-  /// `range` is that of the farthest observation [m]. False if a matrix is not positive definite, as below.
+  /// Before a scan is processed: moves the landmarks that it sees into the window, with their present means. Removes
+  /// from `slots` those that must wait, because the zone is moving to them or away from them. `range`: of the
+  /// farthest observation [m]. False if a matrix is not positive definite, as below.
   [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots, double range);
 
   /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
@@ -68,70 +68,69 @@ class CondensationTree {
   /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
   [[nodiscard]] bool solve_window(InformationState& state);
 
-  /// Of the last solve_window().
+  /// The factor of the last solve_window().
   const WindowFactor& window_factor() const { return factor_; }
 
-  /// After these have been dropped from the window.
+  /// After these landmarks have left the window.
   [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
 
   /// After the last solve_window() of an update; without it the zone never moves, unless most_blocks is 0.
-  /// Until the next activate() no mean of a landmark may change, but by rounding.
+  /// Until the next activate() no mean of a landmark may change, except by rounding.
   void end_update(const InformationState& state);
 
   /// p_world_landmark, in O(log N). [m]
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
 
-  // Of landmarks in the zone, straight after solve_window():
+  // For landmarks in the zone, directly after solve_window():
 
-  bool is_in_zone(int slot) const { return place(slot).hot != none; }
+  bool is_in_zone(int slot) const { return landmark(slot).zone_index != none; }
   template <class Visit>
   void for_each_in_zone(Visit&& visit) const {
     for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
   }
-  /// Of [pose | landmarks] by all that is known, (Omega + S)^-1 and how those that are not active follow, to
-  /// `out` (3+2m x 3+2m).
+  /// The covariance of [pose | landmarks], from (Omega + S)^-1 and from how inactive landmarks follow, to `out`
+  /// (3+2m x 3+2m).
   void covariance(const InformationState& state, std::span<const int> slots,
                   Eigen::Ref<Eigen::MatrixXd> out) const;
 
-  /// The next zone is to hold this landmark.
+  /// Asks that the next zone hold this landmark.
   void want(int slot) { wanted_.push_back(slot); }
 
   std::int64_t blocks_touched() const { return blocks_touched_ + zone_.blocks_touched(); }
-  /// Observations of known landmarks that have been left out since these had to wait. [-]
+  /// Ignored observations of known landmarks that had to wait, so far. [-]
   std::int64_t waited() const { return waited_; }
   std::size_t memory_bytes() const;
 
-  /// At the cost of a pass over the map: what is wrong with the tree, if anything is.
+  /// The first broken invariant of the tree, if any, at the cost of a pass over the map.
   std::optional<std::string> broken_invariant(const InformationState& state) const;
 
  private:
   static constexpr int none = -1;
   static constexpr int most_bare = 8;  // [-] leaves below a node that condenses nothing
-  using Place = CondensedLandmark;
   using Node = CondensationNode;
-  Place& place(int slot) { return places_[static_cast<std::size_t>(slot)]; }
-  const Place& place(int slot) const { return places_[static_cast<std::size_t>(slot)]; }
+  CondensedLandmark& landmark(int slot) { return landmarks_[static_cast<std::size_t>(slot)]; }
+  const CondensedLandmark& landmark(int slot) const { return landmarks_[static_cast<std::size_t>(slot)]; }
   Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
   const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
   const SentMessage& sent(int at) const { return at == tree_.hub() ? to_zone_ : node(at).sent; }
   template <class Visit>
   void for_each_landmark(int leaf, Visit&& visit) const {
-    for (int slot = node(leaf).first_landmark; slot != none; slot = place(slot).next) visit(slot);
+    for (int slot = node(leaf).first_landmark; slot != none; slot = landmark(slot).next) visit(slot);
   }
 
-  /// visit(slot, other, Omega) for each block that a leaf owns; those of two leaves are the older one's.
+  /// Calls visit(slot, other, Omega) for each block that a leaf owns; a block of two leaves belongs to the older.
   template <class Visit>
   void for_each_owned_block(const InformationState& state, int leaf, Visit&& visit) const {
     for_each_landmark(leaf, [&](int slot) {
       visit(slot, slot, state.information(slot));
       state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-        const int leaf_of_other = place(other).leaf;
+        const int leaf_of_other = landmark(other).leaf;
         if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
         visit(slot, other, Omega_so);
       });
     });
   }
-  /// Visits the nodes whose messages come to a node, through bare ones or not.
+  /// Visits the nodes whose messages reach a node, directly or through bare nodes.
   template <class Visit>
   void for_each_part(int at, Visit&& visit) const {
     tree_.for_each_source(at, [&](int source) {
@@ -143,7 +142,7 @@ class CondensationTree {
     });
   }
 
-  // What is wrong with one part, if anything is.
+  // The first broken invariant of one part, if any.
   std::optional<std::string> broken_landmark(const InformationState& state, int slot) const;
   std::optional<std::string> broken_message(int at) const;
   std::optional<std::string> broken_group(int group, int at) const;
@@ -208,7 +207,7 @@ class CondensationTree {
 
   // The live path.
   int leaf_for(const Eigen::Vector2d& p);
-  int add_leaf(const Eigen::Vector2d& place);
+  int add_leaf(const Eigen::Vector2d& p_world);
   void attach(int leaf);
   bool is_ready(int slot) const;
   void add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const;
@@ -216,7 +215,7 @@ class CondensationTree {
   int settled_at(FrontVariable v) const;
   const Eigen::VectorXd& read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
-  void as_read(FrontVariable v, double* mean) const;
+  void read_mean(FrontVariable v, double* mean) const;
   void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
   void find_step(const Condensed& message) const;
 
@@ -224,14 +223,14 @@ class CondensationTree {
   LeafTree tree_;
   Front front_;  // before what holds its arrays
   ChunkedArray<Node> nodes_;
-  ChunkedArray<Place> places_;  // by slot
+  ChunkedArray<CondensedLandmark> landmarks_;  // by slot
   HotZone zone_;
   SentMessage to_zone_;  // by the hub
   Condensed links_;      // of the hub that is being made ready
   CondensationPlan plan_;
   std::vector<int> hot_leaves_;
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
-  std::vector<int> zone_places_;
+  std::vector<int> zone_indices_;
   std::vector<int> wanted_;            // slots
   mutable Eigen::MatrixXd by_factor_;  // scratch (w x 3+2m), with room to grow
   double view_ = 0.0;                  // how far the robot sees [m]

@@ -1,4 +1,4 @@
-// What a front leaves behind: the condensed matrix and residual of its boundary (front.hpp has the formulas).
+// The result of a front: the condensed matrix and residual of its boundary (formulas: front.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,20 @@
 
 namespace seif {
 
-/// A landmark goes by its slot, a group by the complement of a number of its own.
+/// A landmark is named by its slot, a group by the complement of its node's number.
 using FrontVariable = int;
 constexpr FrontVariable group_variable(int group) { return ~group; }
 constexpr bool is_group(FrontVariable v) { return v < 0; }
 constexpr int freedom(FrontVariable v) { return is_group(v) ? 3 : 2; }  // (x, y), or (x, y, phi)
 
-/// What a front leaves behind.
+/// The result of a front.
 struct Condensed {
   struct Member {
     FrontVariable variable;
-    /// [-] leaves behind that hold blocks of it; once its own is among them, less all that there are.
+    /// [-] Leaves behind that hold blocks of it. Once its own leaf is among them, minus the number of all such leaves.
     int balance;
   };
-  /// Of the matrix of B, by places in the boundary; for i == j the lower triangle counts.
+  /// A block of the matrix of B, by indices in the boundary; for i == j the lower triangle counts.
   struct Block {
     int i, j;
     Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
@@ -46,14 +46,14 @@ struct Condensed {
   std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
 
   auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
-  /// The distinct blocks of it.
+  /// The number of its distinct blocks.
   std::int64_t blocks() const;
-  /// s - S d: the residual of B where its mean has gone by d (b) since its reference.
+  /// s - S d: the residual of B after its mean has moved by d (b) from its reference.
   void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
   void clear();
-  /// Becomes the other, whose arrays it takes away; lists are copied, so that each keeps its own room.
+  /// Takes over the other's arrays; copies its lists, so that each keeps its own capacity.
   void take(Condensed& other);
-  /// Without its arrays: those are the front's.
+  /// Without the arrays, which belong to the front.
   std::size_t memory_bytes() const;
 };
 

@@ -67,15 +67,15 @@ void Front::begin() {
   parts_.clear();
 }
 
-Front::Place& Front::place(FrontVariable v) {
-  ChunkedArray<Place>& places = is_group(v) ? groups_ : landmarks_;
+Front::Rows& Front::rows_of(FrontVariable v) {
+  ChunkedArray<Rows>& rows = is_group(v) ? groups_ : landmarks_;
   const auto i = static_cast<std::size_t>(is_group(v) ? ~v : v);
-  while (places.size() <= i) places.push_back({});
-  return places[i];
+  while (rows.size() <= i) rows.push_back({});
+  return rows[i];
 }
 
 std::size_t Front::index_of(FrontVariable v) {
-  Place& p = place(v);
+  Rows& p = rows_of(v);
   if (p.front != front_) {
     p.front = front_;
     p.index = static_cast<int>(variables_.size());
@@ -101,7 +101,7 @@ void Front::tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& l
 void Front::give_rows(const Condensed& front) {
   int row = 0;
   const auto give = [&](FrontVariable v) {
-    Place& p = place(v);
+    Rows& p = rows_of(v);
     p.front = front_;
     p.row = row;
     p.tied = false;
@@ -110,7 +110,7 @@ void Front::give_rows(const Condensed& front) {
   for (const FrontVariable v : front.eliminated) give(v);
   for (const Condensed::Member& m : front.boundary) give(m.variable);
   for (const Condensed::Tie& tie : front.tied) {
-    Place& p = place(tie.variable);
+    Rows& p = rows_of(tie.variable);
     p.front = front_;
     p.row = tie.row;
     p.tied = true;
@@ -120,7 +120,7 @@ void Front::give_rows(const Condensed& front) {
 }
 
 void Front::add_targets(FrontVariable v) {
-  const Place& p = place(v);
+  const Rows& p = rows_of(v);
   constexpr int none = -1;
   const int turn = p.tied ? p.row + 2 : none;
   targets_.push_back({p.row, turn, -p.lever.y()});
@@ -280,7 +280,7 @@ void Front::add_tied(const Condensed& part) {
   }
 }
 
-/// The rows of the front that the part's go to, each once, and by them the place in that list.
+/// The rows of the front that the part's go to, each once, and beside them the index in that list.
 void Front::list_moved_rows() {
   moved_rows_.clear();
   column_of_row_.assign(static_cast<std::size_t>(size_), -1);
@@ -333,7 +333,7 @@ bool Front::factorise(Condensed& out) {
   for (const Variable& v : variables_) {
     if (v.group != v.variable) {
       out.tied.push_back({.variable = v.variable,
-                          .row = place(v.group).row,
+                          .row = rows_of(v.group).row,
                           .lever = v.lever,
                           .reference = Eigen::Vector3d::Zero()});
     }

@@ -1,14 +1,14 @@
-// Elimination of landmarks from a part of the information matrix: what nodes of the condensation tree do.
+// Eliminates landmarks from a part of the information matrix: the work of a node of the condensation tree.
 //
 //   a part of Omega       eliminated E   boundary B
 //   (a front)         E [ M_EE                      ]       M_EE = L L',  G = L^-1 M_EB,  y = L^-1 r_E
 //                     B [ M_BE           M_BB       ]       condensed: S = M_BB - G' G,  s = r_B - G' y
 //
-// E must have all its blocks in this front. Where the mean of B goes by d_B, that of E goes by
+// E must have all its blocks in this front. If the mean of B moves by d_B, that of E moves by
 // L^-T (y - G d_B).
 //
-// The variables of a front are landmarks, and groups of landmarks that move as one rigid body. What is tied
-// to a group has no rows of its own; it moves by t + phi J lever where the group moves by (t, phi).
+// The variables of a front are landmarks, and groups of landmarks that move as one rigid body. A tied landmark has
+// no rows of its own; it moves by t + phi J lever when its group moves by (t, phi).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@
 
 namespace seif {
 
-/// Must live longer than what it leaves behind, whose arrays are of its pool.
+/// Must live longer than its results, whose arrays are from its pool.
 class Front {
  public:
   struct Variable {
@@ -38,14 +38,14 @@ class Front {
   ~Front() = default;
 
   void begin();
-  /// The front takes in what another has left, or a part of Omega.
+  /// Adds the result of another front, or a part of Omega.
   void add(const Condensed& part);
-  /// All that is in it so far, in the order in which it came.
+  /// All variables so far, in the order in which they were added.
   const std::vector<Variable>& variables() const { return variables_; }
-  /// From now on a variable moves with a group, which becomes one of the front if it is not.
+  /// Ties a variable to a group, which is added to the front if it is missing.
   void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
 
-  /// Eliminates all variables of which is_complete(variable, balance) holds. False if their block is not
+  /// Eliminates all variables for which is_complete(variable, balance) holds. False if their block is not
   /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
   template <class IsComplete>
   [[nodiscard]] bool condense(IsComplete&& is_complete, Condensed& out) {
@@ -63,34 +63,34 @@ class Front {
     return factorise(out);
   }
 
-  // The residual of a front that has been condensed.
+  // The residual of a condensed front.
   void begin_residual(const Condensed& front);
-  /// What a part holds of the residual of its boundary (b).
+  /// Adds a part's residual of its boundary (b).
   void add_residual(const Condensed& part, const Eigen::Ref<const Eigen::VectorXd>& r);
   void add_residual(int slot, const Eigen::Vector2d& r);
   /// Sets y and s.
   void condense_residual(Condensed& front);
 
-  /// Unknowns of it. [-]
+  /// The number of unknowns. [-]
   int size() const { return size_; }
   std::size_t memory_bytes() const;
 
  private:
-  struct Place {
+  struct Rows {
     int front = 0;  // number of the front in which it was last
     int index = 0;  // among variables_, until it has a row
     int row = 0;
     bool tied = false;
     Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
   };
-  /// Where a row of a part goes: to one row of the front, or, tied, to a second one with this weight.
+  /// The target of a row of a part: one row of the front, and for a tied landmark a second one with this weight.
   struct Target {
     int row;
     int second;
     double weight;
   };
 
-  Place& place(FrontVariable v);
+  Rows& rows_of(FrontVariable v);
   std::size_t index_of(FrontVariable v);
   void give_rows(const Condensed& front);
   void add_targets(FrontVariable v);
@@ -112,7 +112,7 @@ class Front {
   std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
   int front_ = 0;
   int size_ = 0;
-  ChunkedArray<Place> landmarks_, groups_;
+  ChunkedArray<Rows> landmarks_, groups_;
   std::vector<Variable> variables_;
   std::vector<const Condensed*> parts_;
   std::vector<Target> targets_;  // of the rows of one part

@@ -36,13 +36,13 @@ void HotZone::load(const Condensed& without) {
 }
 
 int HotZone::add(int slot, const Eigen::Vector2d& mean) {
-  const int place = size();
-  reserve(place + 1);
+  const int index = size();
+  reserve(index + 1);
   members_.push_back({.slot = slot, .active = true});
-  F_.middleCols<2>(2 * place).topRows(2 * place + 2).setZero();
-  F_.middleRows<2>(2 * place).leftCols(2 * place + 2).setZero();
-  set_mean(place, mean);
-  return place;
+  F_.middleCols<2>(2 * index).topRows(2 * index + 2).setZero();
+  F_.middleRows<2>(2 * index).leftCols(2 * index + 2).setZero();
+  set_mean(index, mean);
+  return index;
 }
 
 void HotZone::add_information(int a, int b, const Eigen::Matrix2d& Omega_ab) {
@@ -51,10 +51,10 @@ void HotZone::add_information(int a, int b, const Eigen::Matrix2d& Omega_ab) {
   ++blocks_touched_;
 }
 
-void HotZone::list_rest(std::span<const int> places) {
+void HotZone::list_rest(std::span<const int> indices) {
   rest_.clear();
-  for (int place = 0; place < size(); ++place) {
-    if (std::ranges::find(places, place) == places.end()) rest_.push_back(place);
+  for (int index = 0; index < size(); ++index) {
+    if (std::ranges::find(indices, index) == indices.end()) rest_.push_back(index);
   }
 }
 
@@ -74,20 +74,20 @@ void HotZone::spread_change(double sign) {
   }
 }
 
-/// With T the places and R the rest, A = sign F_TT, U = F_RT and V = U A^-1:
+/// With T the indices and R the rest, A = sign F_TT, U = F_RT and V = U A^-1:
 ///   F_RR -= sign V U',   F_RT = V,   F_TT = -sign A^-1.
-bool HotZone::sweep(std::span<const int> places, double sign) {
-  list_rest(places);
+bool HotZone::sweep(std::span<const int> indices, double sign) {
+  list_rest(indices);
   const auto r = 2 * static_cast<Eigen::Index>(rest_.size());
-  const auto t = 2 * static_cast<Eigen::Index>(places.size());
+  const auto t = 2 * static_cast<Eigen::Index>(indices.size());
   auto U = columns_.topLeftCorner(r, t);
   auto V = swept_.topLeftCorner(r, t);
   auto A = pivot_.topLeftCorner(t, t);
   const auto at = [](std::size_t i) { return 2 * static_cast<Eigen::Index>(i); };
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    for (std::size_t i = 0; i < rest_.size(); ++i) U.block<2, 2>(at(i), at(j)) = block(rest_[i], places[j]);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      A.block<2, 2>(at(i), at(j)) = sign * block(places[i], places[j]);
+  for (std::size_t j = 0; j < indices.size(); ++j) {
+    for (std::size_t i = 0; i < rest_.size(); ++i) U.block<2, 2>(at(i), at(j)) = block(rest_[i], indices[j]);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      A.block<2, 2>(at(i), at(j)) = sign * block(indices[i], indices[j]);
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A);
   if (llt.info() != Eigen::Success) return false;
@@ -99,24 +99,24 @@ bool HotZone::sweep(std::span<const int> places, double sign) {
   auto inverse = columns_.topLeftCorner(t, t);  // U is done with
   inverse.setIdentity();
   llt.solveInPlace(inverse);
-  for (std::size_t j = 0; j < places.size(); ++j) {
+  for (std::size_t j = 0; j < indices.size(); ++j) {
     for (std::size_t i = 0; i < rest_.size(); ++i) {
-      block(rest_[i], places[j]) = V.block<2, 2>(at(i), at(j));
-      block(places[j], rest_[i]) = V.block<2, 2>(at(i), at(j)).transpose();
+      block(rest_[i], indices[j]) = V.block<2, 2>(at(i), at(j));
+      block(indices[j], rest_[i]) = V.block<2, 2>(at(i), at(j)).transpose();
     }
-    for (std::size_t i = 0; i < places.size(); ++i)
-      block(places[i], places[j]) = -sign * inverse.block<2, 2>(at(i), at(j));
-    members_[static_cast<std::size_t>(places[j])].active = sign < 0.0;
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      block(indices[i], indices[j]) = -sign * inverse.block<2, 2>(at(i), at(j));
+    members_[static_cast<std::size_t>(indices[j])].active = sign < 0.0;
   }
   blocks_touched_ += std::int64_t{size()} * (size() + 1) / 2;
   return true;
 }
 
-/// -W' d_A of one place in P.
-Eigen::Vector2d HotZone::step_of(int place, const Eigen::VectorXd& d) const {
+/// -W' d_A of one index in P.
+Eigen::Vector2d HotZone::step_of(int index, const Eigen::VectorXd& d) const {
   Eigen::Vector2d d_P = Eigen::Vector2d::Zero();
   for (int a = 0; a < size(); ++a) {
-    if (is_active(a)) d_P -= block(place, a) * d.segment<2>(2 * a);
+    if (is_active(a)) d_P -= block(index, a) * d.segment<2>(2 * a);
   }
   return d_P;
 }

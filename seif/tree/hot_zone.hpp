@@ -1,15 +1,15 @@
-// The landmarks about the robot, and what all others know of them: the hub of the condensation tree.
+// The landmarks around the robot, with the information of all others about them: the hub of the tree.
 //
-// F (2h x 2h) holds all information on the zone's h landmarks but that of the window (InformationState).
-// Those that are active, A, are linked to the robot. The others, P, are eliminated by the sweep operator,
-// which leaves at their place how they follow:
+// F (2h x 2h) holds all information about the zone's h landmarks except that of the window (InformationState).
+// Active landmarks, A, are linked to the robot. The others, P, are eliminated by the sweep operator, which leaves
+// in place how they follow:
 //
 //         A                       P
 //     A [ S = F_AA - F_AP W'      W = F_AP F_PP^-1 ]     the window solves with Omega + S; where the mean of
 //     P [ W'                      -F_PP^-1         ]     A goes by d_A, that of P goes by -W' d_A
 //
-// Sweeping again, with the sign turned, takes a landmark back from P to A, so a landmark changes sides at the
-// cost of a product of this size: no elimination has to begin again.
+// Sweeping with the opposite sign takes a landmark back from P to A. So a landmark changes sides at the cost of one
+// product of this size: no elimination begins anew.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,28 +24,28 @@ namespace seif {
 
 class HotZone {
  public:
-  /// All landmarks of the boundary of what is condensed from without, all in A, at mean zero.
+  /// Loads the landmarks on the boundary of `without`, the condensed rest of the map; all in A, at mean zero.
   void load(const Condensed& without);
 
-  /// A landmark of which nothing is known but by the window, in A. Returns its place in the zone.
+  /// Adds a landmark to A that only the window knows. Returns its index in the zone.
   int add(int slot, const Eigen::Vector2d& mean);
 
   int size() const { return static_cast<int>(members_.size()); }
-  int slot(int place) const { return member(place).slot; }
-  bool is_active(int place) const { return member(place).active; }
+  int slot(int index) const { return member(index).slot; }
+  bool is_active(int index) const { return member(index).active; }
 
   auto block(int a, int b) { return F_.block<2, 2>(2 * a, 2 * b); }
   auto block(int a, int b) const { return F_.block<2, 2>(2 * a, 2 * b); }
-  /// Adds to both blocks of a pair, which are one if they are the same.
+  /// Adds to both blocks of a pair; to one block if a and b are the same.
   void add_information(int a, int b, const Eigen::Matrix2d& Omega_ab);
 
   /// From A to P, or from P to A. False, with nothing changed, if their block is not positive definite.
-  [[nodiscard]] bool eliminate(std::span<const int> places) { return sweep(places, 1.0); }
-  [[nodiscard]] bool restore(std::span<const int> places) { return sweep(places, -1.0); }
+  [[nodiscard]] bool eliminate(std::span<const int> indices) { return sweep(indices, 1.0); }
+  [[nodiscard]] bool restore(std::span<const int> indices) { return sweep(indices, -1.0); }
 
-  Eigen::Vector2d mean(int place) const { return mean_.segment<2>(2 * place); }
-  void set_mean(int place, const Eigen::Vector2d& mean) { mean_.segment<2>(2 * place) = mean; }
-  /// Where all are (2h) when A has moved to mean_of(slot) and P has followed.
+  Eigen::Vector2d mean(int index) const { return mean_.segment<2>(2 * index); }
+  void set_mean(int index, const Eigen::Vector2d& mean) { mean_.segment<2>(2 * index) = mean; }
+  /// The means of all (2h) after A has moved to mean_of(slot) and P has followed.
   template <class MeanOf>
   void follow(MeanOf&& mean_of, Eigen::VectorXd& means) const {
     const Eigen::Index n = 2 * size();
@@ -69,17 +69,17 @@ class HotZone {
     int slot;
     bool active;
   };
-  const Member& member(int place) const { return members_[static_cast<std::size_t>(place)]; }
+  const Member& member(int index) const { return members_[static_cast<std::size_t>(index)]; }
   void reserve(int landmarks);
-  void list_rest(std::span<const int> places);
+  void list_rest(std::span<const int> indices);
   void spread_change(double sign);
-  bool sweep(std::span<const int> places, double sign);
-  Eigen::Vector2d step_of(int place, const Eigen::VectorXd& d) const;
+  bool sweep(std::span<const int> indices, double sign);
+  Eigen::Vector2d step_of(int index, const Eigen::VectorXd& d) const;
 
   std::vector<Member> members_;
   Eigen::MatrixXd F_;      // symmetric, with room to grow
   Eigen::VectorXd mean_;   // with room to grow, as all below [m]
-  std::vector<int> rest_;  // places that a sweep does not take
+  std::vector<int> rest_;  // indices that a sweep does not take
   Eigen::MatrixXd columns_, swept_, pivot_, change_;
   std::int64_t blocks_touched_ = 0;
 };

@@ -57,8 +57,8 @@ LeafTree::Box rectangle_of(std::uint64_t key, int bit) {
 
 LeafTree::LeafTree(const Pose2& start) : T_world_grid_(start * Pose2{.theta = -turn}) {}
 
-Eigen::Vector2d LeafTree::in_grid(const Eigen::Vector2d& place) const {
-  return inverse(T_world_grid_) * place;
+Eigen::Vector2d LeafTree::in_grid(const Eigen::Vector2d& p_world) const {
+  return inverse(T_world_grid_) * p_world;
 }
 
 int LeafTree::add_node() {
@@ -130,7 +130,7 @@ Eigen::Vector2d LeafTree::centre(int node) const {
   return T_world_grid_ * Eigen::Vector2d(box(node).center());
 }
 
-void LeafTree::widen(int leaf, const Eigen::Vector2d& place) { at(leaf).box.extend(in_grid(place)); }
+void LeafTree::widen(int leaf, const Eigen::Vector2d& p_world) { at(leaf).box.extend(in_grid(p_world)); }
 
 int LeafTree::common_ancestor(std::span<const int> leaves) {
   assert(!leaves.empty());

@@ -1,5 +1,5 @@
-// A binary tree of places: its leaves stand where their keys put them, and every node knows the way to one
-// node of them all, the hub.
+// A binary tree over the plane. Keys decide where its leaves are, and every node knows the way to one node, the
+// hub.
 //
 //            tree             plane
 //             o              +-------+---+---+
@@ -8,13 +8,13 @@
 //        / \     / \         |       |   1   |
 //       0   1   2   3        +-------+-------+
 //
-// A key holds the bits of a place's two coordinates in turns, the highest first. Each bit halves a rectangle
-// of the plane, and an inner node stands for the rectangle of its leaves. So places that are near to each
-// other mostly are so in the tree, in whatever order they come, and nothing has to be balanced.
+// A key interleaves the bits of a point's two coordinates, the highest first. Each bit halves a rectangle of the
+// plane, and an inner node represents the rectangle of its leaves. So points that are near each other are mostly
+// near in the tree, in whatever order they come, and nothing must be balanced.
 //
-// A leaf that lies in the other half of a rectangle than the last one begins a new branch there, above all
-// older ones, some times: so what a robot comes by in one go stays together as well, and in an area that it
-// sweeps fewer landmarks lie on the border of a branch than on that of a rectangle.
+// A leaf in another half of a rectangle than the last leaf may begin a new branch there, above all older ones. So
+// landmarks that a robot passes in one drive stay together. In an area that it sweeps, fewer landmarks then lie on
+// the border of a branch than on that of a rectangle.
 //
 //   towards(n): the neighbour of n, parent or child, on its way to the hub.
 #pragma once
@@ -34,36 +34,36 @@ class LeafTree {
  public:
   static constexpr int none = -1;
 
-  /// The grid lies where the robot starts, so that nothing depends on where the world has its origin.
+  /// The grid's origin is the robot's start, so that nothing depends on the origin of the world.
   explicit LeafTree(const Pose2& start);
 
-  /// A leaf that does not stand in the tree yet, and has no box; returns its node.
+  /// Makes a leaf that is not in the tree yet and has no box; returns its node.
   int new_leaf();
-  /// Puts a new leaf where the middle of its box belongs. The first one is the hub. An inner node may be
-  /// added too, between the leaf and all others. Not between plan_hub() and move_hub().
+  /// Inserts a new leaf by the middle of its box. The first one is the hub. May also add an inner node between the
+  /// leaf and all others. Not between plan_hub() and move_hub().
   void attach(int leaf);
 
   int size() const { return static_cast<int>(nodes_.size()); }
   bool is_leaf(int node) const { return at(node).child[0] == none; }
-  /// How many leaves stand below it, or 1 if it is one. [-]
+  /// The number of leaves below it; 1 for a leaf. [-]
   int leaves(int node) const { return at(node).leaves; }
   /// none for the root.
   int parent(int node) const { return at(node).parent; }
-  /// Whether `node` is `ancestor`, or stands below it.
+  /// Whether `node` is `ancestor` or below it.
   bool is_within(int node, int ancestor) const;
 
   using Box = Eigen::AlignedBox2d;
-  /// Of an inner node: the rectangle that it stands for, whatever leaves are yet to come. Of a leaf: what it
-  /// has been widened to. In the grid's frame. [m]
+  /// For an inner node: the rectangle that it represents. For a leaf: the box that it was widened to. In the grid's
+  /// frame. [m]
   const Box& box(int node) const { return at(node).box; }
-  /// Of its box, in the world. [m]
+  /// The middle of its box, in the world. [m]
   Eigen::Vector2d centre(int node) const;
-  void widen(int leaf, const Eigen::Vector2d& place);
+  void widen(int leaf, const Eigen::Vector2d& p_world);
 
   int hub() const { return hub_; }
   /// none for the hub.
   int towards(int node) const { return at(node).towards; }
-  /// The same once the hub is where it is planned to be.
+  /// The same with the hub in its planned position.
   int planned_towards(int node) const { return at(node).planned_towards; }
 
   template <class Visit>
@@ -74,7 +74,7 @@ class LeafTree {
     }
   }
 
-  /// Visits the neighbours of a node but that on the way to the hub.
+  /// Visits the neighbours of a node except the one on the way to the hub.
   template <class Visit>
   void for_each_source(int node, Visit&& visit) const {
     for_each_neighbour(node, [&](int other) {
@@ -88,11 +88,11 @@ class LeafTree {
     });
   }
 
-  /// Visits the leaves whose boxes come nearer to a place than `distance` [m].
+  /// Visits the leaves whose boxes come nearer to p_world than `distance` [m].
   template <class Visit>
-  void for_each_leaf_near(const Eigen::Vector2d& place, double distance, Visit&& visit) {
+  void for_each_leaf_near(const Eigen::Vector2d& p_world, double distance, Visit&& visit) {
     if (root_ == none) return;
-    const Eigen::Vector2d p = in_grid(place);
+    const Eigen::Vector2d p = in_grid(p_world);
     near_.assign(1, root_);
     while (!near_.empty()) {
       const int node = near_.back();
@@ -109,7 +109,7 @@ class LeafTree {
   /// The lowest node above all of these; at least one.
   int common_ancestor(std::span<const int> leaves);
 
-  /// Which node is to become the hub, and then makes it so.
+  /// Plans which node becomes the hub; then moves the hub there.
   void plan_hub(int to);
   void move_hub();
 
@@ -131,7 +131,7 @@ class LeafTree {
 
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
   const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  Eigen::Vector2d in_grid(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d in_grid(const Eigen::Vector2d& p_world) const;
   int add_node();
   int insert_above(int below);
 

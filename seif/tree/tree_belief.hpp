@@ -11,10 +11,10 @@
 
 namespace seif {
 
-/// At hand are the landmarks of the zone. Holds references to parts of the filter that owns it.
+/// The landmarks of the zone are at hand. Holds references to parts of the filter that owns it.
 class TreeBelief final : public LocalBelief {
  public:
-  /// `equal_slots` collects the pairs that equate() names, for the filter to take in.
+  /// `equal_slots` collects the pairs of equate() for the filter.
   TreeBelief(InformationState& state, CondensationTree& tree, const Pose2& T_robot_sensor,
              std::vector<std::pair<int, int>>& equal_slots)
       : state_(state), tree_(tree), T_robot_sensor_(T_robot_sensor), equal_slots_(equal_slots) {}

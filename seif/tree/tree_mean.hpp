@@ -1,5 +1,9 @@
-// The mean along a condensation tree, as Seif asks for it.
+// Mean recovery with a condensation tree, for Seif.
 #pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "seif/mean_keeper.hpp"
 #include "seif/tree/condensation_tree.hpp"

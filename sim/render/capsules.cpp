@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 namespace render {
 
@@ -65,8 +66,8 @@ struct Ends {
   Eigen::Vector4d b;
 };
 
-/// What of the line from a to b may be seen: before the camera, and on the image or at most `margin` beside
-/// it.
+/// The part of the line from a to b that may be visible: in front of the camera, and on the image or at most
+/// `margin` outside it.
 std::optional<Ends> clipped(const Ends& line, const Projection& projection, const Frame& frame,
                             double margin) {
   double from = 0.0;
@@ -133,7 +134,7 @@ void append_dot(const Dot& dot, const Projection& projection, std::vector<Capsul
 }
 
 void append_polyline(const Polyline& line, std::vector<Capsule>& capsules) {
-  constexpr float smallest_step = 0.25F;  // [px] shorter ones would only paint joints over joints
+  constexpr float smallest_step = 0.25F;  // [px] shorter steps would paint joints over joints
   Capsule capsule;
   capsule.width = line.width;
   capsule.colour = Rgba(line.colour);

@@ -1,4 +1,4 @@
-// Lines with round ends, on the image: the strokes and dots of the world, the polylines of the overlay.
+// Lines with round ends on the image: the strokes and dots of the world, and the polylines of the overlay.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ struct Capsule {
   Eigen::Vector3f a = Eigen::Vector3f::Zero();  // [px], [px], depth [-1, 1]
   Eigen::Vector3f b = Eigen::Vector3f::Zero();
   float width = 0.0F;  // [px]
-  // Where a line goes on, the bisectors at its joints: each pixel there belongs to one of the two. 0: it
-  // ends.
+  // The bisectors at the ends where a polyline continues, so that each pixel at a joint belongs to one of the
+  // two lines. 0: the line ends there.
   Eigen::Vector2f cut_a = Eigen::Vector2f::Zero();
   Eigen::Vector2f cut_b = Eigen::Vector2f::Zero();
   Rgba colour;
@@ -24,9 +24,9 @@ struct Capsule {
 class CapsulePainter {
  public:
   explicit CapsulePainter(const Gl& gl);
-  /// Over everything.
+  /// Paints over everything.
   void paint(const std::vector<Capsule>& capsules, const Frame& frame, Rows rows);
-  /// Behind the things of the layer that are nearer.
+  /// Paints behind things of the layer that are nearer to the camera.
   void paint_behind(const Targets& layer, const std::vector<Capsule>& capsules, const Frame& frame);
 
  private:

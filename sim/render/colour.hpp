@@ -1,9 +1,9 @@
-// A colour.
+// Colours.
 #pragma once
 
 namespace render {
 
-/// sRGB, each in [0, 1]; alpha is not premultiplied.
+/// A colour in sRGB, each component in [0, 1]; alpha is not premultiplied.
 struct Colour {
   float r = 0.0F;
   float g = 0.0F;

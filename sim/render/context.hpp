@@ -1,4 +1,4 @@
-// Where OpenGL comes from. The one place to change for another way to draw without a display.
+// Provides OpenGL. This is the only place to change for another way to draw without a display.
 #pragma once
 
 #include <memory>
@@ -7,24 +7,24 @@
 
 namespace render {
 
-/// An OpenGL 3.3 core context without a window. What is made in it lives as long as it does.
+/// An OpenGL 3.3 core context without a window. Objects that are made in it live as long as the context.
 class Context {
  public:
-  /// The names under which the library is looked for.
+  /// The file names that are tried for the library.
   static std::vector<std::string> libraries();
 
-  /// Takes the first of these libraries that there is. Throws std::runtime_error that says what to install if
-  /// there is none.
+  /// Loads the first of these libraries that exists. If there is none, throws std::runtime_error with the name
+  /// of what to install.
   explicit Context(const std::vector<std::string>& libraries);
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Calls from this thread go to this context from now on. Throws std::runtime_error.
+  /// From now on, OpenGL calls from this thread go to this context. Throws std::runtime_error.
   void make_current();
 
   using Function = void (*)();
-  /// The function of this name; null if there is none.
+  /// The function with this name; null if it does not exist.
   Function proc(const char* name) const;
 
  private:

@@ -4,12 +4,13 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace render {
 
 namespace {
 
-// [px] thinner ellipses are drawn as if they were that wide: a line, or a dot.
+// [px] A thinner ellipse is drawn as if it were this wide: a line, or a dot.
 constexpr double least_minor = 0.05;
 
 const char* const ellipse_vertex_shader = R"(
@@ -42,7 +43,7 @@ void main() {
 }
 )";
 
-// Distances to first order: a function that vanishes on the curve, over the length of its gradient [1/px].
+// Distances to first order: a function that is zero on the curve, divided by the length of its gradient [1/px].
 const char* const ellipse_fragment_shader = R"(
 flat in vec2 zero;
 flat in vec3 h_x, h_y, h_1;
@@ -84,7 +85,7 @@ void main() {
 }
 )";
 
-/// Columns for u, v and 1; rows for x w, y w and w, with x and y from the reference.
+/// Columns for u, v and 1; rows for x w, y w and w, with x and y relative to the reference.
 struct Mapping {
   Eigen::Matrix3d pixel_from_disk;
   Eigen::RowVector3d depth;  // z w
@@ -104,7 +105,7 @@ Mapping mapped(const Ellipse& ellipse, const Projection& projection, const Eigen
   return mapping;
 }
 
-/// Makes an ellipse that is thinner than least_minor as thick as that, and fills in its shorter axis.
+/// Gives an ellipse that is thinner than least_minor this thickness, and sets its shorter axis.
 void thicken(Eigen::Matrix3d& M, ScreenEllipse& screen) {
   const Eigen::Matrix2d J = M.topLeftCorner<2, 2>() / M(2, 2);  // d pixel / d (u, v) at the centre
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -121,7 +122,7 @@ void bound(const Eigen::Matrix3d& M, const Frame& frame, ScreenEllipse& screen) 
   const Eigen::Vector2f size(static_cast<float>(frame.width), static_cast<float>(frame.height));
   screen.min.setZero();
   screen.max = size;
-  if (!(C(2, 2) < 0.0) || !(M(2, 2) > 0.0)) return;  // a part of it lies behind the camera
+  if (!(C(2, 2) < 0.0) || !(M(2, 2) > 0.0)) return;  // a part of the ellipse is behind the camera
   const float margin = 0.5F * screen.outline_width + 1.0F;
   for (int axis = 0; axis < 2; ++axis) {
     const double middle = C(axis, 2) / C(2, 2);
@@ -145,7 +146,7 @@ std::optional<ScreenEllipse> on_screen(const Ellipse& ellipse, const Projection&
   const Eigen::Vector2d reference = ahead ? Eigen::Vector2d(centre.head<2>() / centre.w())
                                           : 0.5 * Eigen::Vector2d(frame.width, frame.height);
   ScreenEllipse screen;
-  // As the shader will have it, so that far off the image nothing is lost either.
+  // Rounded as in the shader, so that no precision is lost far off the image either.
   screen.reference = reference.cast<float>();
   auto [M, depth] = mapped(ellipse, projection, centre, screen.reference.cast<double>());
   if (ahead) thicken(M, screen);
@@ -153,7 +154,7 @@ std::optional<ScreenEllipse> on_screen(const Ellipse& ellipse, const Projection&
   bound(M, frame, screen);
   if ((screen.max - screen.min).minCoeff() <= 0.0F) return std::nullopt;
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(M);
-  if (!lu.isInvertible()) return std::nullopt;  // seen from its own plane
+  if (!lu.isInvertible()) return std::nullopt;  // the camera is in the plane of the ellipse
   const Eigen::Matrix3d disk_from_pixel = lu.inverse();
   screen.disk_from_pixel = disk_from_pixel.cast<float>();
   screen.depth = (depth * disk_from_pixel).transpose().cast<float>();

@@ -14,7 +14,7 @@ namespace render {
 
 namespace {
 
-/// The font in its weights. FreeType's faces may be used by one thread at a time.
+/// The font in all its weights. Only one thread at a time may use FreeType's faces.
 class Font {
  public:
   Font() {
@@ -90,7 +90,7 @@ class Font {
   std::mutex mutex_;
 };
 
-/// How many bytes the character takes that begins with this one; 0: none does.
+/// The number of bytes of the character that begins with this byte; 0: no character begins with it.
 int length_of(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first < 0xE0) return 2;

@@ -1,4 +1,4 @@
-// Letters.
+// Characters and their pictures (glyphs).
 #pragma once
 
 #include <cstdint>
@@ -9,22 +9,23 @@
 
 namespace render {
 
-/// The characters of UTF-8; what is none becomes U+FFFD.
+/// Decodes UTF-8; invalid bytes become U+FFFD.
 std::vector<char32_t> decoded(const std::string& text);
 
 /// A picture of a character. [px]
 struct Glyph {
-  int left = 0;  // from the pen to its first column
-  int top = 0;   // from the baseline up to its first row
+  int left = 0;  // from the pen to the first column
+  int top = 0;   // from the baseline up to the first row
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> cover;  // (height x width), from the top
+  std::vector<std::uint8_t> cover;  // (height x width), rows from the top
 };
 
-/// How far the pen moves on after a character. [em] Throws std::runtime_error if the font is missing.
+/// How far the pen moves for a character. [em] Throws std::runtime_error if the font is missing.
 float advance(char32_t character, Weight weight);
 
-/// The character at this size [px of the em], `shift` of a pixel right of the pen. Throws as `advance` does.
+/// The glyph of a character at this size [px of the em], `shift` of a pixel to the right of the pen. Throws as
+/// `advance` does.
 Glyph rasterised(char32_t character, Weight weight, float size, float shift);
 
 }  // namespace render

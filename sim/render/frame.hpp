@@ -1,11 +1,11 @@
-// A part of the image, and shaders that count in its pixels.
+// A part of the image, and shader code that works in its pixels.
 #pragma once
 
 #include "sim/render/program.hpp"
 
 namespace render {
 
-/// [px] from the lower left corner of the image, in the way of OpenGL.
+/// [px] from the lower left corner of the image, as in OpenGL.
 struct Frame {
   int x = 0;
   int y = 0;
@@ -13,16 +13,16 @@ struct Frame {
   int height = 0;
 };
 
-/// Drawing is confined to the frame from now on.
+/// From now on, drawing is limited to the frame.
 void enter(const Gl& gl, const Frame& frame);
 
-enum class Rows { upwards, downwards };  // how y counts
+enum class Rows { upwards, downwards };  // the direction of y
 
-/// GLSL for shaders that count in pixels of a frame: `clip(pixel, depth)` is a vertex there.
+/// GLSL for shaders that work in pixels of a frame: `clip(pixel, depth)` gives the position of a vertex.
 extern const char* const frame_glsl;
-/// `pixel()` is where a fragment is: the very same numbers whatever is drawn.
+/// `pixel()` is the position of a fragment: exactly the same numbers for everything that is drawn.
 extern const char* const pixel_glsl;
-/// Names the frame to such shaders.
+/// Passes the frame to a program that uses this GLSL.
 void set_frame(const Program& program, const Frame& frame, Rows rows);
 
 }  // namespace render

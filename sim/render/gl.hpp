@@ -1,4 +1,4 @@
-// The OpenGL functions that are used, by name.
+// The OpenGL functions that are used.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -34,9 +34,9 @@
 
 namespace render {
 
-/// `gl.Clear(...)` is glClear(...) of the context that is current.
+/// `gl.Clear(...)` is glClear(...) of the current context.
 struct Gl {
-  /// Throws std::runtime_error that names the function which is missing.
+  /// Throws std::runtime_error with the name of a function that is missing.
   explicit Gl(const Context& context);
 
   /// Throws std::runtime_error if a call has failed since the last check.

@@ -1,6 +1,7 @@
 #include "sim/render/ground_pass.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace render {
 
@@ -64,7 +65,7 @@ void main() {
 }
 )";
 
-/// Where in a period of `period` [m] the origin is, in [0, 1).
+/// The position of the origin within a period of `period` [m], in [0, 1).
 float phase_of(double origin, double period) {
   return static_cast<float>(origin / period - std::floor(origin / period));
 }
@@ -105,7 +106,7 @@ void GroundPass::draw(const Ground& ground, const Projection& projection, const 
   gl_.Disable(GL_CULL_FACE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Enable(GL_BLEND);
-  // A little more than the ground: its edge is drawn by the fragments.
+  // A little larger than the ground: the fragments draw its edge.
   const Eigen::Vector2d size = 1.05 * ground.size;
   const Eigen::Vector2d corner = -0.5 * size - projection.origin().head<2>();
   whole_[0] = {

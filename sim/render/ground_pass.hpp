@@ -1,4 +1,4 @@
-// The ground with its grid, in one view.
+// Draws the ground with its grid in one view.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace render {
 class GroundPass {
  public:
   explicit GroundPass(const Gl& gl);
-  /// Into the plain image: what stands on it comes later. Shadows are looked for in the shades alone: that is
-  /// dear.
+  /// Draws into the plain image, before the things that stand on the ground. Only the areas in `shades` are
+  /// tested for shadows, since the test is expensive.
   void draw(const Ground& ground, const Projection& projection, const Frame& frame, const Sunlight& sunlight,
             const std::vector<Shade>& shades);
 
@@ -25,7 +25,7 @@ class GroundPass {
   Program open_;
   Program shaded_;
   VertexArray parts_;
-  std::vector<Shade> whole_;  // the ground; one entry
+  std::vector<Shade> whole_;  // one entry: the whole ground
 };
 
 }  // namespace render

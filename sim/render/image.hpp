@@ -1,4 +1,4 @@
-// Pixels.
+// Images in memory.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace render {
 
-/// Rows from top to bottom, pixels from left to right, red, green and blue of each in sRGB.
+/// An image. Rows from top to bottom, pixels from left to right, with red, green and blue in sRGB.
 struct Image {
   int width = 0;                  // [px]
   int height = 0;                 // [px]

@@ -1,5 +1,7 @@
-// Flat marks in one view.
+// Draws flat marks in one view.
 #pragma once
+
+#include <vector>
 
 #include "sim/render/capsules.hpp"
 #include "sim/render/ellipses.hpp"
@@ -9,9 +11,9 @@ namespace render {
 class MarksPass {
  public:
   explicit MarksPass(const Gl& gl);
-  /// Over everything.
+  /// Draws over everything.
   void draw(const Marks& marks, const Projection& projection, const Frame& frame);
-  /// Behind the things of the layer that are nearer.
+  /// Draws behind things of the layer that are nearer to the camera.
   void draw_behind(const Targets& layer, const Marks& marks, const Projection& projection,
                    const Frame& frame);
 

@@ -12,7 +12,7 @@ void add_triangle(Mesh& mesh, std::size_t a, std::size_t b, std::size_t c) {
   for (const std::size_t index : {a, b, c}) mesh.indices.push_back(static_cast<std::uint16_t>(index));
 }
 
-/// A corner of the prism that has as much volume as the cylinder of radius 1.
+/// A corner of the prism with the same volume as the cylinder of radius 1.
 std::array<float, 2> corner_of(int side, int sides) {
   const double step = 2.0 * std::numbers::pi / sides;
   const double radius = std::sqrt(step / std::sin(step));
@@ -45,7 +45,7 @@ Mesh box_mesh() {
       for (const auto& [u, v] : {std::array{-0.5F, -0.5F}, {0.5F, -0.5F}, {0.5F, 0.5F}, {-0.5F, 0.5F}}) {
         Vertex vertex = {};
         vertex.position[axis] = 0.5F * sign;
-        vertex.position[(axis + 1) % 3] = u * sign;  // mirrored, so that the turn is seen from outside
+        vertex.position[(axis + 1) % 3] = u * sign;  // mirrored, to be counter-clockwise seen from outside
         vertex.position[(axis + 2) % 3] = v;
         vertex.normal[axis] = sign;
         mesh.vertices.push_back(vertex);

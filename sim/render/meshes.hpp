@@ -1,4 +1,4 @@
-// The shapes that things are made of, of size 1 about the origin.
+// The basic shapes of things, with size 1 and centred on the origin.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ struct Vertex {
   float normal[3];
 };
 
-/// Triangles, counter-clockwise as seen from outside.
+/// Triangles, counter-clockwise when seen from outside.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint16_t> indices;
@@ -20,7 +20,7 @@ struct Mesh {
 enum class Bottom { closed, open };
 
 Mesh box_mesh();
-/// About the z axis. An open bottom is for what stands on the ground.
+/// Around the z axis. The open bottom is for cylinders that stand on the ground.
 Mesh cylinder_mesh(int sides, Bottom bottom);
 
 }  // namespace render

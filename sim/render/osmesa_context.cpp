@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "sim/render/context.hpp"
 
@@ -11,7 +14,7 @@ namespace render {
 
 namespace {
 
-/// It stays loaded: Mesa keeps threads and handlers of its own to the end of the program.
+/// Loads the library, for good: Mesa keeps its own threads and handlers until the program ends.
 void* loaded(const std::vector<std::string>& libraries) {
   for (const std::string& name : libraries) {
     if (void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
@@ -45,7 +48,7 @@ struct Context::Library {
   decltype(OSMesaMakeCurrent)* make_current;
   decltype(OSMesaGetProcAddress)* proc_address;
   OSMesaContext context = nullptr;
-  // OSMesa insists on an image of its own; what is drawn goes into framebuffer objects.
+  // OSMesa requires an image of its own, but drawing goes into framebuffer objects.
   std::array<std::uint8_t, 4 * 16 * 16> unused = {};
 };
 
@@ -81,8 +84,7 @@ Context::Function Context::proc(const char* name) const { return library_->proc_
 }  // namespace render
 
 #ifdef __SANITIZE_ADDRESS__
-/// The leak sanitizer crashes now and then over the thread-local memory of Mesa's threads, which outlive
-/// main().
+/// The leak sanitizer sometimes crashes on the thread-local memory of Mesa's threads, which outlive main().
 extern "C" const char* __lsan_default_options();
 extern "C" const char* __lsan_default_options() { return "use_tls=0"; }
 

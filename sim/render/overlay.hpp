@@ -1,5 +1,5 @@
-// What lies flat on top of an image. All lengths are in pixels of the image as it is written; pixels count from its
-// upper left corner, x to the right, y down.
+// The flat overlay on top of an image. All lengths are in pixels of the image as it is written. Pixels count
+// from its upper left corner, x to the right, y down.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +21,10 @@ struct Rectangle {
 enum class Align { left, centre, right };
 enum class Weight { regular, bold };
 
-/// One line of UTF-8 text; what the font does not have shows as a box.
+/// One line of UTF-8 text. A character that the font does not have is drawn as a box.
 struct Text {
-  Eigen::Vector2f position = Eigen::Vector2f::Zero();  // where its baseline begins, is centred, or ends
-  float size = 14.0F;                                  // of the em
+  Eigen::Vector2f position = Eigen::Vector2f::Zero();  // the start, centre or end of the baseline
+  float size = 14.0F;                                  // size of the em
   Align align = Align::left;
   Weight weight = Weight::regular;
   Colour colour;
@@ -37,9 +37,9 @@ struct Polyline {
   Colour colour;
 };
 
-/// What lies between two curves over the same x.
+/// The area between two curves over the same x.
 struct Band {
-  std::vector<Eigen::Vector3f> points;  // x, y of the one, y of the other
+  std::vector<Eigen::Vector3f> points;  // x, y of the first curve, y of the second
   Colour colour;
 };
 
@@ -49,7 +49,7 @@ struct Raster {
   Eigen::Vector2f max = Eigen::Vector2f::Zero();
   int columns = 0;                 // [-]
   int rows = 0;                    // [-]
-  std::vector<std::uint8_t> rgba;  // (rows x columns x 4) from the top
+  std::vector<std::uint8_t> rgba;  // (rows x columns x 4), rows from the top
 };
 
 using OverlayItem = std::variant<Rectangle, Text, Polyline, Band, Raster>;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "sim/render/renderer.hpp"
 
@@ -74,7 +76,7 @@ void main() {
 }
 )";
 
-// A pixel belongs to the slice that its centre is in: beside each other they leave no seam.
+// A pixel belongs to the slice that contains its centre, so there is no seam between slices.
 const char* const slice_fragment_shader = R"(
 flat in vec3 left;
 flat in vec3 slopes;

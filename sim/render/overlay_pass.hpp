@@ -1,5 +1,7 @@
-// The overlay, over the whole image.
+// Draws the overlay over the whole image.
 #pragma once
+
+#include <vector>
 
 #include "sim/render/capsules.hpp"
 #include "sim/render/glyph_atlas.hpp"
@@ -14,16 +16,16 @@ class OverlayPass {
  private:
   using Box = Eigen::Matrix<float, 4, 1, Eigen::DontAlign>;
 
-  /// A rectangle filled with a colour times a part of the atlas.
+  /// A rectangle filled with a colour times a part of the glyph atlas.
   struct Patch {
     Box box;    // [px] from, to
     Box atlas;  // [px] from, to
     Rgba colour;
   };
 
-  /// What lies between two lines from x to x.
+  /// The area between two lines, from one x to another.
   struct Slice {
-    Eigen::Vector3f from;  // x, y of the one, y of the other [px]
+    Eigen::Vector3f from;  // x, y of the first line, y of the second [px]
     Eigen::Vector3f to;
     Rgba colour;
   };
@@ -33,7 +35,7 @@ class OverlayPass {
   void add(const Polyline& line);
   void add(const Band& band);
   void add(const Raster& raster);
-  /// Items of one kind that follow each other are painted together: this paints what waits.
+  /// Consecutive items of one kind are painted together; this function paints those that wait.
   void flush();
   void paint_patches();
   void paint_slices();

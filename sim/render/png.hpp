@@ -1,4 +1,4 @@
-// Images as files.
+// Images as PNG files.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace render {
 
-/// The same image gives the same bytes. Throws std::runtime_error that names the file.
+/// The same image gives the same bytes. Throws std::runtime_error with the name of the file.
 void write_png(const std::filesystem::path& path, const Image& image);
 Image read_png(const std::filesystem::path& path);
 

@@ -29,7 +29,7 @@ Program::Program(const Gl& gl, const std::string& name, const std::string& verte
   for (const GLuint shader :
        {compiled(gl, GL_VERTEX_SHADER, name, vertex), compiled(gl, GL_FRAGMENT_SHADER, name, fragment)}) {
     gl.AttachShader(program_, shader);
-    gl.DeleteShader(shader);  // with the program
+    gl.DeleteShader(shader);  // freed together with the program
   }
   gl.LinkProgram(program_);
   GLint success = 0;

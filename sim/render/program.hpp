@@ -1,4 +1,4 @@
-// A pair of shaders.
+// A program of a vertex shader and a fragment shader.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,13 @@ namespace render {
 
 class Program {
  public:
-  /// The sources follow after the line with the version. Throws std::runtime_error with the compiler's words.
+  /// The sources follow the line with the version. Throws std::runtime_error with the compiler's message.
   Program(const Gl& gl, const std::string& name, const std::string& vertex, const std::string& fragment);
 
   void use() const { gl_.UseProgram(program_); }
 
-  // Of the program in use. A name that the shaders do not have is an error of ours: std::logic_error.
+  // Sets a variable of the program in use. A name that the shaders do not have is a programmer's error:
+  // std::logic_error.
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const Eigen::Vector2f& value) const;

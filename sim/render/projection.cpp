@@ -9,7 +9,7 @@ namespace render {
 
 namespace {
 
-// Of its distance: how much nearer a mark is drawn, and how near the nearest thing may be.
+// Fractions of the distance: how much nearer a mark is drawn, and how near the nearest visible thing may be.
 constexpr double mark_lift = 0.0015;
 constexpr double nearest_share = 0.02;
 
@@ -53,7 +53,7 @@ Projection::Projection(const Camera& camera, int width, int height)
     M.row(axis).head<3>() = half_size / tangent_(axis) * R.row(axis);
     M.row(axis) += half_size * M.row(3);
   }
-  // In perspective, from the lower edge of the image to well behind the target.
+  // In perspective, the area reaches from the lower edge of the image to well behind the target.
   Eigen::Vector3d ahead = camera.target - camera.eye;
   ahead.z() = 0.0;
   field_centre_ = perspective_ ? Eigen::Vector3d(camera.target + 0.4 * ahead) : camera.target;

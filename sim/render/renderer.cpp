@@ -19,8 +19,8 @@ std::string described(const Gl& gl) {
   return text(GL_RENDERER) + ", " + text(GL_VERSION);
 }
 
-/// Whether two views differ in nothing but what is drawn on top, as those of two estimators do: then one
-/// image of the world does for both.
+/// Whether two views differ only in what is drawn on top, as the views of two estimators do. Then one image of
+/// the world can be used for both.
 bool shows_the_same(const View& a, const View& b) {
   const auto is_bare = [](const Things& things) {
     const Marks& marks = things.marks;

@@ -1,6 +1,6 @@
-// What is to be drawn, as a value: a world seen by one or more cameras, and a flat overlay on top of it all.
-// World frame: x east, y north, z up. Pixels count from the upper left corner of the image, x to the right, y
-// down; all lengths in pixels are of the image as it is written.
+// A scene to be drawn, as plain values: a world seen by one or more cameras, and a flat overlay on top. World
+// frame: x east, y north, z up. Pixels count from the upper left corner of the image, x to the right, y down.
+// All lengths in pixels are of the image as it is written.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,24 +17,24 @@ struct Camera {
   Eigen::Vector3d eye = {0.0, -10.0, 10.0};          // p_world [m]
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  // p_world [m]
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();     // [-] not along the line of sight
-  double field_of_view = 0.7;                        // [rad] from the bottom to the top
-  double height = 0.0;                               // [m] what is seen from bottom to top; 0: in perspective
+  double field_of_view = 0.7;                        // [rad] vertical angle of view
+  double height = 0.0;  // [m] visible height, without perspective; 0: perspective
 };
 
 enum class Shape {
   box,       // edges along x, y, z
-  cylinder,  // about the z axis
+  cylinder,  // around the z axis
 };
 
-/// A shape of the size given, about its own origin.
+/// A shape of the given size, centred on its own origin.
 struct Solid {
   Shape shape = Shape::box;
   Eigen::Isometry3d T_world_solid = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d size = Eigen::Vector3d::Ones();  // [m] of the box around it
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  // [m] of its bounding box
   Colour colour;
 };
 
-/// An upright cylinder that stands on the ground. There may be very many.
+/// An upright cylinder that stands on the ground. A scene may have very many of them.
 struct Post {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // p_world [m]
   float radius = 0.1F;                                 // [m]
@@ -68,7 +68,7 @@ struct Dot {
   Colour colour;
 };
 
-/// Flat marks, painted in this order: ellipses, strokes, dots.
+/// Flat marks. They are painted in this order: ellipses, strokes, dots.
 struct Marks {
   std::vector<Ellipse> ellipses;
   std::vector<Stroke> strokes;
@@ -79,13 +79,13 @@ struct Marks {
 struct Things {
   std::vector<Solid> solids;
   std::vector<Post> posts;
-  Marks marks;         // hidden by solids and posts that stand before them
-  Marks marks_on_top;  // seen through everything
+  Marks marks;         // hidden by solids and posts in front of them
+  Marks marks_on_top;  // visible through everything
 };
 
 struct Ground {
   Eigen::Vector2d size = {40.0, 40.0};  // [m] centred on the origin
-  double grid = 1.0;                    // [m] between its lines; every fifth is stronger; 0: none
+  double grid = 1.0;                    // [m] between lines; every fifth line is stronger; 0: no lines
   Colour colour = {0.93F, 0.94F, 0.95F};
   Colour lines = {0.80F, 0.82F, 0.84F};
 };
@@ -97,12 +97,12 @@ struct View {
   int width = 0;   // [px]
   int height = 0;  // [px]
   Camera camera;
-  Things things;  // seen in this view alone
+  Things things;  // seen only in this view
 };
 
-/// An image in the making.
+/// The description of a whole image.
 struct Scene {
-  Colour sky = {0.98F, 0.985F, 0.99F};  // also what far ground fades into
+  Colour sky = {0.98F, 0.985F, 0.99F};  // distant ground fades into this colour, too
   Ground ground;
   bool shadows = true;
   Things things;  // seen in every view

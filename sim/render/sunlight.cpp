@@ -63,7 +63,7 @@ namespace {
 
 constexpr GLsizei map_size = 2048;  // [px] a side; as in the shader
 
-/// Rows: two axes across, and towards the sun.
+/// The rows are two axes across the sunlight, and the direction towards the sun.
 Eigen::Matrix3d sun_rotation() {
   const Eigen::Vector3d sun = Eigen::Vector3d(-0.50, -0.42, 0.95).normalized();
   Eigen::Matrix3d R;
@@ -75,7 +75,7 @@ Eigen::Matrix3d sun_rotation() {
 
 const Eigen::Matrix3d R_sun_world = sun_rotation();
 
-/// Zooming moves the shadows' texels; in steps, it does so rarely.
+/// Zooming would move the texels of the shadows. With a radius in steps, that happens rarely.
 double stepped(double radius) {
   const double step = std::log(1.25);
   return std::exp(step * std::ceil(std::log(radius) / step));
@@ -108,7 +108,7 @@ void Sunlight::fit(const Projection& projection, bool shadows, const Colour& sky
   sky_ = sky;
   haze_ = projection.perspective() ? static_cast<float>(1.0 / (14.0 * projection.distance())) : 0.0F;
   radius_ = stepped(projection.field_radius());
-  // Whole texels only, so that shadows stand still while the camera moves.
+  // Moves by whole texels, so that shadows do not change while the camera moves.
   const double texel = 2.0 * radius_ / map_size;
   p_sun_field_ = R_sun_world * projection.field_centre();
   for (int axis = 0; axis < 3; ++axis) p_sun_field_(axis) = texel * std::round(p_sun_field_(axis) / texel);
@@ -127,7 +127,7 @@ void Sunlight::begin_shadows() const {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);
-  gl_.Enable(GL_DEPTH_CLAMP);  // what stands nearer to the sun than the map reaches throws its shadow too
+  gl_.Enable(GL_DEPTH_CLAMP);  // things nearer to the sun than the map throw shadows, too
   gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_FRONT);  // so that no lit face shadows itself
 }
@@ -144,7 +144,7 @@ bool Sunlight::throws_shadow(const Eigen::Vector3d& p_world, double radius) cons
 
 Shade Sunlight::shade_of(const Eigen::Matrix3f& axes, const Eigen::Vector3f& centre, float height) const {
   const bool is_upright = axes.col(2).head<2>().isZero(1e-6F) && axes.row(2).head<2>().isZero(1e-6F);
-  // The frame that fits the thing best: its own, or the world's.
+  // The frame that fits the thing better: its own, or the world's.
   Eigen::Matrix2f frame = Eigen::Matrix2f::Identity();
   Eigen::Vector2f half = 0.5F * axes.cwiseAbs().rowwise().sum().head<2>();
   if (is_upright) {
@@ -154,8 +154,7 @@ Shade Sunlight::shade_of(const Eigen::Matrix3f& axes, const Eigen::Vector3f& cen
   const Eigen::Vector3f sun = R_sun_world.row(2).transpose().cast<float>();
   const float top = centre.z() + height + 0.5F * axes.row(2).cwiseAbs().sum();  // [m] above the ground
   const Eigen::Vector2f swept = frame.transpose() * (-std::max(top, 0.0F) / sun.z() * sun.head<2>());
-  constexpr float blur =
-      6.0F;  // [-] texels that taps and normal offset reach to either side, seen at a slant
+  constexpr float blur = 6.0F;  // [-] texels that taps and normal offset reach to each side, at a slant
   const auto margin = Eigen::Vector2f::Constant(blur * static_cast<float>(2.0 * radius_ / map_size));
   const Eigen::Vector2f least = -half + swept.cwiseMin(0.0F) - margin;
   const Eigen::Vector2f most = half + swept.cwiseMax(0.0F) + margin;

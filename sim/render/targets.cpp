@@ -1,5 +1,6 @@
 #include "sim/render/targets.hpp"
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -106,7 +107,7 @@ void Targets::compose(const Frame& frame) const {
 }
 
 void Targets::repeat(const Frame& from, const Frame& to) const {
-  use_plain();  // for reading too
+  use_plain();  // for reading, too
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.BlitFramebuffer(from.x, from.y, from.x + from.width, from.y + from.height, to.x, to.y, to.x + to.width,
                       to.y + to.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

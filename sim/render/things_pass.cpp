@@ -1,12 +1,14 @@
 #include "sim/render/things_pass.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace render {
 
 namespace {
 
-// [px] a smaller post is a speck; one thinner than the second a prism of few sides.
+// [px] A post smaller than the first is drawn as a speck, one thinner than the second as a prism with few
+// sides.
 constexpr double speck_below = 2.0;
 constexpr double coarse_below = 8.0;
 

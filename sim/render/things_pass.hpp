@@ -1,7 +1,8 @@
-// Solids and posts, in one view, and their shadows.
+// Draws solids and posts, and their shadows, in one view.
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "sim/render/sunlight.hpp"
 #include "sim/render/vertex_array.hpp"
@@ -12,24 +13,25 @@ class ThingsPass {
  public:
   explicit ThingsPass(const Gl& gl);
 
-  /// Chooses what of the things is seen in this view or throws a shadow into it, and how finely.
+  /// Begins a view. Of the things added after this, only those that are seen in the view or throw a shadow into
+  /// it are drawn, in as much detail as they need.
   void begin(const Projection& projection, const Sunlight& sunlight);
   void add(const Things& things);
 
   void draw_shadows();
-  /// Where on the ground they may fall.
+  /// The areas of the ground on which the shadows may fall.
   const std::vector<Shade>& shades() const { return shades_; }
   void draw();
 
  private:
-  /// A mesh, stretched and placed.
+  /// A mesh, scaled and placed.
   struct Instance {
-    Eigen::Matrix3f axes;  // columns: edges of the box around it, relative to the origin [m]
+    Eigen::Matrix3f axes;  // columns: edges of the bounding box, relative to the origin [m]
     Eigen::Vector3f centre;
     Rgba colour;
   };
 
-  /// A post that is too small for a shape.
+  /// A post that is too small to be drawn as a shape.
   struct Speck {
     Eigen::Vector3f centre;
     float size;  // [px]

@@ -12,7 +12,7 @@ std::uint8_t byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
-/// OpenGL wants an offset where it once took a pointer.
+/// OpenGL takes an offset in a parameter that was once a pointer.
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): never a place in memory
 }

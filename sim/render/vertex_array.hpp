@@ -1,4 +1,4 @@
-// Vertices that are the same in every frame, and instances that are new in each.
+// Vertex data: vertices that are the same in every frame, and instances that are new in each.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace render {
 
-/// As the shaders take it: straight alpha in the bytes of an instance.
+/// A colour as the shaders take it: the bytes of an instance, alpha not premultiplied.
 struct Rgba {
   Rgba() = default;
   explicit Rgba(const Colour& colour);
@@ -26,9 +26,10 @@ struct Attribute {
 
 class VertexArray {
  public:
-  /// Instances are quads: the four corners come from gl_VertexID. Attributes are numbered from 0.
+  /// Instances are quads: the shader gets the four corners from gl_VertexID. Attributes are numbered from 0.
   VertexArray(const Gl& gl, std::initializer_list<Attribute> instance);
-  /// Instances of a mesh, whose positions and normals are the attributes 0 and 1; the instance's follow.
+  /// Instances of a mesh. Attributes 0 and 1 are the mesh's positions and normals; those of the instance
+  /// follow.
   VertexArray(const Gl& gl, const Mesh& mesh, std::initializer_list<Attribute> instance);
 
   template <typename Instance>
@@ -38,7 +39,7 @@ class VertexArray {
     draw_uploaded(static_cast<GLsizei>(instances.size()));
   }
 
-  /// One point for each, without corners.
+  /// Draws one point for each instance, without corners.
   template <typename Instance>
   void draw_points(const std::vector<Instance>& instances) {
     if (instances.empty()) return;

@@ -17,7 +17,7 @@ bool is_plain(std::string_view name) {
          name.find_first_not_of(letters) == std::string_view::npos;
 }
 
-/// Where the next file begins, from `from` on, which is the beginning of a line.
+/// The position at which the next file begins. `from` is the beginning of a line.
 std::size_t next_mark(std::string_view archive, std::size_t from) {
   if (archive.substr(from).starts_with(mark)) return from;
   const std::size_t found = archive.find("\n=== ", from);

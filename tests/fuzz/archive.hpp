@@ -11,8 +11,8 @@
 
 namespace fuzz {
 
-/// Writes the files to a folder; those whose names could lead out of it, and those that stand twice, are left
-/// out. Returns the paths.
+/// Writes the files to a folder and returns their paths. Leaves out files whose names could lead out of the
+/// folder, and duplicate names.
 std::vector<std::filesystem::path> unpack(std::string_view archive, const std::filesystem::path& folder);
 
 void write(const std::filesystem::path& path, std::string_view text);

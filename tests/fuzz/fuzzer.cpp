@@ -1,4 +1,4 @@
-// What libFuzzer calls; each fuzzer is this file with a target of its own.
+// The function that libFuzzer calls. Each fuzzer is this file with its own target.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
+#include <variant>
 
 #include "archive.hpp"
 #include "harness/files/bad_input.hpp"
@@ -28,7 +30,7 @@ void check(const harness::ScanEvent& event, bool names_landmarks) {
 
 }  // namespace
 
-/// Whatever a reader hands on is finite, and time does not run backwards.
+/// All values that a reader delivers are finite, and time does not run backwards.
 void read_log(std::string_view bytes) {
   const harness::TemporaryFolder folder;
   const auto files = unpack(bytes, folder.path());

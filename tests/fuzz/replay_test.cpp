@@ -1,10 +1,11 @@
-// Everything that a fuzzer found worth keeping, and everything that it once broke something with.
+// Replays every interesting input that a fuzzer has found, and every input that once broke something.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "targets.hpp"
 
@@ -17,7 +18,7 @@ class Corpus : public testing::TestWithParam<std::string_view> {};
 INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::Values("worlds", "overrides", "logs", "runs"),
                          [](const auto& corpus) { return std::string(corpus.param); });
 
-/// A target that finds something ends the program.
+/// A target that finds an error ends the program.
 TEST_P(Corpus, BreaksNothing) {
   int inputs = 0;
   for (const fs::directory_entry& entry :

@@ -1,6 +1,5 @@
-// What is fuzzed: everything that reads what people write. Each target takes any bytes at all, and ends the
-// program if they make something happen that must not: a crash, another exception than the one for bad input,
-// or a promise that is not kept.
+// The fuzz targets: all code that reads files written by people. Each target takes any bytes, and ends the
+// program on an error: a crash, an exception other than the one for bad input, or a broken promise.
 #pragma once
 
 #include <map>
@@ -10,21 +9,21 @@ namespace fuzz {
 
 using Target = void (*)(std::string_view bytes);
 
-/// A world file. What is accepted must load again, to the same, from what it resolves to.
+/// Reads a world file. An accepted file must resolve to a document that loads to the same world.
 void read_world(std::string_view bytes);
 
-/// A `--set` expression, on a world that has something of everything. What becomes of that must parse again,
-/// to the same.
+/// Applies a `--set` expression to a world that has every kind of section. The result must parse again to the
+/// same document.
 void read_override(std::string_view bytes);
 
-/// An archive of the files of a log in any format: read to its end.
+/// Reads an archive of the files of a log, in any format, to its end.
 void read_log(std::string_view bytes);
 
-/// An archive of the files of a run's folder: its summary, its scores, and what is whole of it if it was cut
-/// off.
+/// Reads an archive of the files of a run's folder: its summary, its scores, and the complete part of a run
+/// that was cut off.
 void read_run(std::string_view bytes);
 
-/// By the names of their corpora.
+/// The targets by the names of their corpora.
 const std::map<std::string_view, Target>& targets();
 
 }  // namespace fuzz

@@ -1,7 +1,9 @@
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "archive.hpp"
 #include "harness/recording/run_folder.hpp"
@@ -13,7 +15,7 @@ namespace fuzz {
 
 namespace {
 
-/// Stand-ins with options of every sort.
+/// Stand-ins with options of every kind.
 worlds::EstimatorSchemas estimators() {
   worlds::EstimatorSchemas schemas;
   schemas["ekf"] = [](worlds::Fields& fields, std::map<std::string, worlds::OptionValue>& options) {
@@ -44,7 +46,7 @@ worlds::LoadResult load(std::string_view text) {
 }  // namespace
 
 void read_world(std::string_view bytes) {
-  // What a file may ask for is tested elsewhere; here it would make each run slow.
+  // The limits for files are tested elsewhere; here large values would only make each run slow.
   worlds::set_limits({.bytes = 1 << 16, .values = 10'000, .landmarks = 2e3, .fruitless_tries = 10'000});
   const worlds::LoadResult first = load(bytes);
   if (first.world.has_value() != first.problems.empty()) std::abort();

@@ -1,4 +1,4 @@
-// The program as people call it.
+// Calls the program on the command line.
 #pragma once
 
 #include <string>

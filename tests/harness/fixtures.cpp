@@ -1,8 +1,13 @@
 #include "fixtures.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "harness/estimators/registry.hpp"
 #include "harness/run/prepared_run.hpp"

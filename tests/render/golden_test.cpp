@@ -1,7 +1,8 @@
-// Small scenes against images that a person has looked at. SEIFBED_UPDATE_GOLDEN=1 draws them anew: look
-// again.
+// Compares small scenes with images that a person has checked. SEIFBED_UPDATE_GOLDEN=1 draws new ones: check
+// them again.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -19,9 +20,9 @@ constexpr int width = 320;
 constexpr int height = 180;
 constexpr Colour red = {0.85F, 0.20F, 0.15F};
 
-/// Another version of the library rounds otherwise: single steps of 255 everywhere, and more in the few
-/// pixels of an edge that another sample falls into. A line that is missing or shifted by a pixel is a whole
-/// per cent.
+/// Another version of the library rounds differently: by single steps of 255 everywhere, and by more in the few
+/// edge pixels that get another sample. A line that is missing or shifted by a pixel changes a whole per cent
+/// of the pixels.
 void expect_golden(const std::string& name, const Image& image) {
   const std::filesystem::path golden =
       std::filesystem::path(SEIFBED_SOURCE_DIR) / "tests/render/golden" / (name + ".png");
@@ -55,7 +56,7 @@ TEST(Golden, EmptyWorld) {
   expect_golden("empty_world", drawn(scene, width, height));
 }
 
-/// A box with a stroke behind it, and one behind it that is seen through everything.
+/// A box with one stroke behind it, and another stroke behind it that is visible through everything.
 TEST(Golden, Occlusion) {
   Scene scene = bare(width, height, from_behind());
   scene.things.solids.push_back(box({0.0, 0.0, 0.75}, {2.0, 1.0, 1.5}));
@@ -99,7 +100,7 @@ TEST(Golden, Text) {
   expect_golden("text", drawn(scene, width, height));
 }
 
-/// The same world from two sides; an ellipse and a post are in the right view alone.
+/// The same world from two sides; an ellipse and a post are only in the right view.
 TEST(Golden, SplitScreen) {
   Scene scene = bare(158, height, from_behind());
   scene.things.solids.push_back(box({0.0, 1.0, 0.5}, {1.0, 1.0, 1.0}));
@@ -143,11 +144,11 @@ TEST(Golden, Shadows) {
     const Eigen::Vector2d p = projected(camera, p_world, width, height);
     return static_cast<int>(of.pixel(static_cast<int>(p.x()), static_cast<int>(p.y()))[1]);
   };
-  // The sun stands in the south-west: behind the box, to the north-east, it is darker.
+  // The sun is in the south-west, so the ground north-east of the box is darker.
   const Eigen::Vector3d shaded(0.95, 0.75, 0.0);
   const Eigen::Vector3d sunny(0.0, -1.5, 0.0);
   EXPECT_LT(brightness(image, shaded), brightness(image, sunny) - 30);
-  // No lit face has specks of its own shadow.
+  // No lit face has dark spots from its own shadow.
   for (double x = -0.65; x < 0.66; x += 0.05)
     EXPECT_NEAR(brightness(image, {x, 0.0, 1.0}), brightness(image, {0.0, 0.0, 1.0}), 2) << x;
   for (double x = -0.65; x < 0.66; x += 0.05)

@@ -1,4 +1,4 @@
-// Ellipses, sectors, strokes and dots are where geometry says.
+// Ellipses, sectors, strokes and dots are at the positions that geometry gives.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -25,7 +25,7 @@ Camera from_behind() {
   return camera;
 }
 
-/// Of 16 px a metre.
+/// 16 px per metre.
 Camera overhead() { return from_above({0.3, -0.2, 0.0}, 11.25); }
 
 Eigen::Matrix2d axes(double angle, double a, double b) {
@@ -46,7 +46,7 @@ Image drawn_ellipse(const Camera& camera, const Ellipse& ellipse) {
   return drawn(scene, width, height);
 }
 
-/// Pixels of the boundary, densely.
+/// Points of the boundary in pixels, close to each other.
 std::vector<Eigen::Vector2d> curve(const Camera& camera, const Ellipse& ellipse) {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < 2000; ++i) {
@@ -166,7 +166,8 @@ TEST(Sector, CoversItsAnglesAlone) {
   }
 }
 
-/// All that is dark lies within `reach` pixels of the line from a to b; returns how much there is.
+/// Expects that everything dark lies within `reach` pixels of the line from a to b. Returns the sum of the
+/// darkness.
 double ink_along(const Image& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double reach) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

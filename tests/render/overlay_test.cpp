@@ -1,8 +1,11 @@
-// The overlay, to the pixel.
+// The overlay, checked to the pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "pictures.hpp"
 #include "sim/render/renderer.hpp"
@@ -63,7 +66,7 @@ TEST(Rectangle, FillsItsPixelsAndShareOfThoseOnItsEdge) {
 }
 
 TEST(Text, IsAsWideAsSaid) {
-  // The letter begins and ends with a stem, whose bearings are small.
+  // The letter begins and ends with a stem, with only a little space beside it.
   const Extent box = extent(drawn_items({text("HHHHHH")}));
   const float wide = text_width("HHHHHH", 20.0F, Weight::regular);
   EXPECT_NEAR(box.left, 100.0, 3.0);
@@ -88,7 +91,7 @@ TEST(Text, HasDigitsOfOneWidth) {
 }
 
 TEST(Text, HasTheSignsOfTheField) {
-  const Image missing = drawn_items({text("\uE000")});  // nobody's character
+  const Image missing = drawn_items({text("\uE000")});  // a character that no font has
   EXPECT_GT(ink(missing), 10.0);                        // shows as a box
   for (const char* sign :
        {"µ", "×", "·", "²", "σ", "±", "–", "Σ", "Ω", "ξ", "θ", "δ", "°", "√", "≤", "≥", "−"}) {

@@ -1,8 +1,9 @@
-// Images survive the way to a file and back.
+// Images are unchanged after they are written to a file and read back.
 #include "sim/render/png.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>

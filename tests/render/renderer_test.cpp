@@ -1,4 +1,4 @@
-// What holds for every scene.
+// Properties of every scene.
 #include "sim/render/renderer.hpp"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(Renderer, DrawsFarFromTheOriginAsAtIt) {
     view.camera.eye += by;
     view.camera.target += by;
   }
-  // The texels of the shadow map are fixed to the world, and so lie elsewhere below the same shadows.
+  // The texels of the shadow map are fixed to the world, so they lie differently below the same shadows.
   const Difference off = difference(drawn(near, 320, 180), drawn(far, 320, 180));
   EXPECT_LT(off.mean, 0.3);
   EXPECT_LT(off.share, 0.003);
@@ -128,12 +128,12 @@ TEST(Renderer, NeedsNoMoreMemoryFrameAfterFrame) {
   draw_frames(50);
   const double before = resident_memory();
   draw_frames(200);
-  // A frame's buffers alone are 0.2 MiB: were they kept, it would be forty.
+  // The buffers of one frame are 0.2 MiB: if they were kept, it would be 40 MiB.
   EXPECT_LT(resident_memory() - before, 4.0);
 }
 
 TEST(Renderer, DrawsPostsOfEverySize) {
-  // The same field from ever farther: the share of the image that is post stays what it is.
+  // The same field from larger and larger distances: the share of the image that posts cover stays the same.
   for (const double scale : {1.0, 0.1, 0.02}) {
     Scene scene = blank(from_above({0.0, 0.0, 0.0}, 10.0));
     for (int i = -30; i < 30; ++i) {
@@ -147,8 +147,8 @@ TEST(Renderer, DrawsPostsOfEverySize) {
     }
     const Image image = drawn(scene, 320, 180);
     const double expected = 1800 * std::numbers::pi * 0.01 * scale * scale * 18.0 * 18.0;
-    // A speck is never smaller than a pixel, lest it flickers; where a sample lies on its border, two may
-    // have it.
+    // A speck is never smaller than a pixel, so that it does not flicker. If a sample lies on its border, two
+    // pixels may show it.
     EXPECT_GE(ink(image), 0.97 * expected) << scale;
     EXPECT_LE(ink(image), std::max(1.03 * expected, 1.01 * 1800.0)) << scale;
   }

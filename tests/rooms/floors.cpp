@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view harness = "harness/";
 constexpr std::ptrdiff_t most_files_at_the_top = 5;
 
-/// From the ground up. CONTRIBUTING.md draws the same picture.
+/// From the lowest floor up. CONTRIBUTING.md has the same picture.
 constexpr std::array<std::array<std::string_view, 4>, 9> floors = {{
     {"files", "peers", "statistics", "terminal"},
     {"figures", "stream"},
@@ -32,7 +32,7 @@ std::string_view sub_room_of(std::string_view path) {
   return end == std::string_view::npos ? std::string_view{} : path.substr(0, end);
 }
 
-/// The floor of a sub-room, from 1; 0 for one that is on none.
+/// The floor of a sub-room, from 1; 0 for a sub-room without a floor.
 std::ptrdiff_t floor_of(std::string_view sub_room) {
   const auto found = std::ranges::find_if(
       floors, [&](const auto& rooms) { return std::ranges::find(rooms, sub_room) != rooms.end(); });

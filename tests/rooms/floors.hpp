@@ -1,5 +1,5 @@
-// The floors of harness/: a sub-room may include files of lower floors and its own, so that no arrow runs upwards
-// and no circle can arise. Each check returns what breaks the rule, as `path:line: what is wrong`.
+// The floors of harness/: a sub-room may include only its own files and files of lower floors, so all arrows
+// point down and no cycle is possible. Each check returns the violations, as `path:line: what is wrong`.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace rooms {
 
-/// Includes from one sub-room of harness/ of another on the same floor or a higher one, and files of harness/
-/// that stand in no sub-room on a floor.
+/// Finds includes from one sub-room of harness/ to another on the same or a higher floor, and files of harness/
+/// in a sub-room that is on no floor.
 Findings check_floors(const Source& source);
 
-/// More files at the top of harness/ than a stranger takes in at a glance.
+/// Finds out whether there are too many files at the top of harness/ for a quick overview.
 Findings check_top_of_harness(const std::vector<std::string>& paths);
 
 }  // namespace rooms

@@ -1,4 +1,4 @@
-// Arrows between the sub-rooms of harness/ run down, and its top stays small.
+// Arrows between the sub-rooms of harness/ point down, and its top level stays small.
 #include "floors.hpp"
 
 #include <gtest/gtest.h>
@@ -8,18 +8,16 @@
 namespace rooms {
 namespace {
 
-const Findings none;
-
 Findings check_includes(const std::string& path, const std::string& include) {
   return check_floors(parse_source({path, "#include \"" + include + "\"\n"}));
 }
 
 TEST(Floors, LetArrowsRunDown) {
-  EXPECT_EQ(check_includes("harness/commands/run.cpp", "harness/run/run.hpp"), none);
-  EXPECT_EQ(check_includes("harness/score/details.cpp", "harness/files/csv_reader.hpp"), none);
-  EXPECT_EQ(check_includes("harness/run/run.cpp", "harness/run/resume.hpp"), none);
-  EXPECT_EQ(check_includes("harness/run/run.cpp", "seif/estimator.hpp"), none);
-  EXPECT_EQ(check_includes("sim/simulator.cpp", "worlds/world.hpp"), none);
+  EXPECT_EQ(check_includes("harness/commands/run.cpp", "harness/run/run.hpp"), no_findings);
+  EXPECT_EQ(check_includes("harness/score/details.cpp", "harness/files/csv_reader.hpp"), no_findings);
+  EXPECT_EQ(check_includes("harness/run/run.cpp", "harness/run/resume.hpp"), no_findings);
+  EXPECT_EQ(check_includes("harness/run/run.cpp", "seif/estimator.hpp"), no_findings);
+  EXPECT_EQ(check_includes("sim/simulator.cpp", "worlds/world.hpp"), no_findings);
 }
 
 TEST(Floors, LetNoArrowRunUpOrAlong) {
@@ -41,7 +39,7 @@ TEST(Floors, HoldEveryFileOfHarness) {
 TEST(Floors, LeaveTheTopOfHarnessNearlyEmpty) {
   EXPECT_EQ(check_top_of_harness({"harness/1", "harness/2", "harness/3", "harness/4", "harness/5",
                                   "harness/run/run.cpp", "seif/seif.cpp"}),
-            none);
+            no_findings);
   const Findings expected = {"harness: 6 files stand at its top, at most 5 may"};
   EXPECT_EQ(
       check_top_of_harness({"harness/1", "harness/2", "harness/3", "harness/4", "harness/5", "harness/6"}),

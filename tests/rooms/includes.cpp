@@ -11,7 +11,7 @@
 namespace rooms {
 namespace {
 
-/// Where a name of namespace std is declared. Names that several headers declare are left out.
+/// The header that declares a name of namespace std. Names that several headers declare are left out.
 const std::map<std::string_view, std::string_view>& header_of() {
   static const std::map<std::string_view, std::string_view> headers = {
       {"array", "array"},
@@ -82,7 +82,7 @@ std::set<std::string_view> included(const Source& source) {
 /// `a/b.hpp` of `a/b.cpp`.
 std::string own_header(const std::string& path) { return path.substr(0, path.rfind('.')) + ".hpp"; }
 
-/// The name behind `std::` at a token, or nothing.
+/// The name after `std::` at a token; empty if there is none.
 std::string_view standard_name(const std::vector<Token>& tokens, std::size_t at) {
   if (at + 3 >= tokens.size() || tokens[at].text != "std") return {};
   if (tokens[at + 1].text != ":" || tokens[at + 2].text != ":") return {};

@@ -1,5 +1,5 @@
-// Each file includes the standard headers that it uses, itself or in its own header. Unity builds and precompiled
-// headers would hide one that is missing.
+// Each file includes the standard headers that it uses, itself or in its own header. Unity builds and
+// precompiled headers would hide a missing include.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace rooms {
 
-/// The names of namespace std whose header neither a file nor the header of the same name includes, as
-/// `path:line: what is wrong`, each header once for each file.
+/// Finds names of namespace std whose header is included neither by the file nor by the header of the same
+/// name, as `path:line: what is wrong`. Each header is reported once per file.
 Findings check_standard_headers(const std::vector<Source>& sources);
 
 }  // namespace rooms

@@ -1,4 +1,4 @@
-// A standard header that is missing is found, wherever it would have come from.
+// A missing standard header is found, even if another header would have brought it.
 #include "includes.hpp"
 
 #include <gtest/gtest.h>
@@ -6,14 +6,12 @@
 namespace rooms {
 namespace {
 
-const Findings none;
-
 TEST(StandardHeaders, ComeFromTheFileOrItsOwnHeader) {
   const Source header = parse_source({"seif/a.hpp", "#include <vector>\nstd::vector<int> f();\n"});
   const Source file = parse_source(
       {"seif/a.cpp",
        "#include \"seif/a.hpp\"\n#include <cmath>\nstd::vector<int> f() { return {std::sqrt(4)}; }\n"});
-  EXPECT_EQ(check_standard_headers({header, file}), none);
+  EXPECT_EQ(check_standard_headers({header, file}), no_findings);
 }
 
 TEST(StandardHeaders, AreMissedOnceForEachFile) {
@@ -28,7 +26,7 @@ TEST(StandardHeaders, AreMissedOnceForEachFile) {
 
 TEST(StandardHeaders, AreNotAskedForNamesOfOthers) {
   EXPECT_EQ(check_standard_headers({parse_source({"a.cpp", "fmt::string a; // std::vector\nstd::b c;\n"})}),
-            none);
+            no_findings);
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ using Names = std::vector<std::string_view>;
 struct Room {
   std::string_view folder;
   Names may_include;     // files, or folders with a trailing '/'
-  bool pure = false;     // Eigen and the standard library alone; no clock, no file, no output
-  Names links_publicly;  // what its users get with it
+  bool pure = false;     // only Eigen and the standard library; no clock, no file, no output
+  Names links_publicly;  // libraries that its users get with it
   Names links_privately;
 };
 
-/// The innermost folder comes first.
+/// Inner folders come before outer ones.
 const std::vector<Room>& all_rooms() {
   static const std::vector<Room> rooms = {
       {"seif", {"seif/"}, true, {"Eigen3::Eigen"}, {"seifbed_flags"}},
@@ -64,7 +64,7 @@ bool contains(const Names& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// A library that is kept where it is used.
+/// A library that only some rooms may use.
 struct Library {
   std::string_view name;
   bool (*owns_include)(std::string_view include);
@@ -127,9 +127,9 @@ std::string at(std::string_view path, int line, const std::string& what) {
 /// A room's target, and the folder of its tests.
 std::string_view name_of(const Room& room) { return room.folder.substr(room.folder.rfind('/') + 1); }
 
-/// The room of a file, or of the file that a test is about; null for what is in none.
+/// The room of a file, or of the file that a test is about; null if there is none.
 const Room* room_of(std::string_view path) {
-  for (const std::string_view whole : {"tests/fuzz", "tests/soak"}) {  // of all rooms together
+  for (const std::string_view whole : {"tests/fuzz", "tests/soak"}) {  // tests of all rooms together
     if (is_inside(path, whole)) return &all_rooms().back();
   }
   const bool test = is_inside(path, "tests");
@@ -139,7 +139,7 @@ const Room* room_of(std::string_view path) {
   return found == all_rooms().end() ? nullptr : &*found;
 }
 
-/// Whether the include names a file of this tree: in angle brackets it would slip past the arrows.
+/// Whether the include names a file of this tree. In angle brackets it would escape the checks.
 bool is_ours(const Include& include) {
   return include.quoted || std::ranges::any_of(all_rooms(), [&](const Room& room) {
            return is_inside(include.name, room.folder);
@@ -147,7 +147,7 @@ bool is_ours(const Include& include) {
 }
 
 bool follows_arrows(std::string_view path, std::string_view include) {
-  // A test may use what stands beside it, by its bare name.
+  // A test may include the files beside it by their bare names.
   if (include.find('/') == std::string_view::npos) return is_inside(path, "tests");
   if (include.find("..") != std::string_view::npos) return false;
   const Room* room = room_of(path);
@@ -184,8 +184,8 @@ Findings check_libraries(const Source& source) {
   return findings;
 }
 
-/// The filters and the sensors: Eigen and the standard library, without what reads a clock, a file, or
-/// prints.
+/// The filters and the sensors may use only Eigen and the standard library, without the parts that read a clock
+/// or a file, or print.
 Findings check_purity(const Source& source) {
   static const Names impure_headers = {"chrono",  "ctime",  "iostream", "fstream", "thread",
                                        "cstdio",  "future", "print",    "ostream", "filesystem",
@@ -210,7 +210,7 @@ Findings check_purity(const Source& source) {
   return findings;
 }
 
-/// Chance and time that nobody handed over: a run would no longer follow from its seed.
+/// Random numbers and times that are not passed in: with them a run would not follow from its seed alone.
 Findings check_determinism(const Source& source) {
   static const std::vector<Names> forbidden = {{"random_device"},
                                                {"srand"},
@@ -244,7 +244,7 @@ void append(Findings& all, const Findings& more) { all.insert(all.end(), more.be
 
 using SourcesByPath = std::map<std::string, const Source*, std::less<>>;
 
-/// The path that an include of `source` names: a bare name stands beside it.
+/// The path of the file that an include of `source` names. A bare name is a file beside it.
 std::string resolved(const Source& source, const Include& include) {
   if (include.name.find('/') != std::string::npos) return include.name;
   return source.path.substr(0, source.path.rfind('/') + 1) + include.name;
@@ -270,10 +270,11 @@ bool includes_library(const Source& source, const Library& library) {
                              [&](const Include& include) { return library.owns_include(include.name); });
 }
 
-/// What scores takes trajectories, maps and covariances, whoever made them.
+/// Whether the file belongs to the scorer, which takes trajectories, maps, covariances and counts,
+/// whoever made them.
 bool is_scorer(std::string_view path) { return path.starts_with("harness/score/"); }
 
-/// The items of one target_link_libraries that its room may not link so.
+/// Finds the items of one target_link_libraries that its room may not link in this way.
 Findings check_link_line(const Command& command, const Room& room, std::string_view path) {
   Findings findings;
   bool is_private = false;
@@ -312,7 +313,8 @@ Findings check_reach(const std::vector<Source>& sources) {
         if (library.allowed(source.path) || !includes_library(*by_path.at(header), library)) continue;
         findings.push_back(at(source.path, 1, "gets " + std::string(library.name) + " from " + header));
       }
-      if (is_scorer(source.path) && !is_inside(header, "harness") && header != "seif/types.hpp") {
+      if (is_scorer(source.path) && !is_inside(header, "harness") && header != "seif/types.hpp" &&
+          header != "seif/counts.hpp") {
         findings.push_back(at(source.path, 1, "the scorer may not know " + header));
       }
     }
@@ -321,7 +323,7 @@ Findings check_reach(const std::vector<Source>& sources) {
 }
 
 Findings check_cmake_lists(const TextFile& file) {
-  // Ways round a link line.
+  // Commands that bypass the link line.
   static const Names detours = {"link_libraries", "link_directories", "include_directories",
                                 "target_include_directories"};
   const Room* room = room_of(file.path);

@@ -1,5 +1,5 @@
-// The architecture as rules on the text of the tree: who may know whom. Each check returns what breaks a
-// rule, as `path:line: what is wrong`.
+// The architecture as rules on the text of the tree: who may use whom. Each check returns the violations, as
+// `path:line: what is wrong`.
 //
 //   room                    may include                       and privately
 //   seif                    seif, Eigen
@@ -10,7 +10,7 @@
 //   harness/peers           harness/peers                     MRPT
 //   harness                 everything                        nlohmann, CLI11
 //
-// A test of a room may include what the room may, and by their bare names the files beside it.
+// A test of a room may include everything that the room may, and the files beside it by their bare names.
 #pragma once
 
 #include <string>
@@ -21,19 +21,20 @@
 namespace rooms {
 
 using Findings = std::vector<std::string>;
+inline const Findings no_findings;
 
-/// Includes against the arrows, libraries and names where they do not belong, unguarded headers, sources of
-/// chance or time that nobody handed over.
+/// Finds includes against the arrows, libraries and names that do not belong there, headers without a guard,
+/// and sources of chance or time that are not passed in.
 Findings check_source(const Source& source);
 
-/// Libraries that a file gets through the headers of a room that should have kept them to itself, and
-/// estimators or simulators that the scorer gets to know.
+/// Finds libraries that a file gets through the headers of a room that should keep them private, and estimators
+/// or simulators that the scorer can see.
 Findings check_reach(const std::vector<Source>& sources);
 
-/// What a room's CMakeLists.txt makes and links.
+/// Checks what a room's CMakeLists.txt builds and links.
 Findings check_cmake_lists(const TextFile& file);
 
-/// Entries that are not among those of the architecture, and files without a purpose in their name.
+/// Finds entries that the architecture does not have, and files whose names tell no purpose.
 Findings check_paths(const std::vector<std::string>& paths);
 
 }  // namespace rooms

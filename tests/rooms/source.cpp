@@ -30,7 +30,7 @@ class Cursor {
   char peek() const { return text_[at_]; }
   bool sees(std::string_view what) const { return text_.substr(at_).starts_with(what); }
 
-  /// The next `count` characters, or what is left.
+  /// The next `count` characters, or the rest if it is shorter.
   std::string_view take(std::size_t count) {
     const std::string_view taken = text_.substr(at_, count);
     line_ += static_cast<int>(std::ranges::count(taken, '\n'));
@@ -45,7 +45,7 @@ class Cursor {
     return take(count);
   }
 
-  /// Up to the next `end`, which is taken too but not returned.
+  /// Takes everything up to and including the next `end`; returns it without `end`.
   std::string_view take_past(std::string_view end) {
     const std::size_t found = text_.find(end, at_);
     const std::string_view taken = take(found == std::string_view::npos ? found : found - at_);
@@ -63,7 +63,7 @@ void skip_line(Cursor& cursor) {
   cursor.take_while([](char c) { return c != '\n'; });
 }
 
-/// Skips "..." or '...'; one that is not closed ends with its line.
+/// Skips "..." or '...'; an unclosed literal ends with its line.
 void skip_literal(Cursor& cursor) {
   const char quote = cursor.take(1).front();
   while (!cursor.at_end() && cursor.peek() != '\n') {
@@ -73,7 +73,7 @@ void skip_literal(Cursor& cursor) {
   }
 }
 
-/// Skips R"x(...)x", its prefix already taken.
+/// Skips R"x(...)x"; its prefix is already taken.
 void skip_raw_literal(Cursor& cursor) {
   cursor.take(1);
   const std::string delimiter(cursor.take_past("("));
@@ -92,7 +92,7 @@ bool skip_comment(Cursor& cursor) {
   return true;
 }
 
-/// What follows `#include`.
+/// Takes the text after `#include`.
 Include take_include(Cursor& cursor) {
   cursor.take_while([](char c) { return c == ' ' || c == '\t'; });
   Include include{.line = cursor.line(), .name = {}};
@@ -119,7 +119,7 @@ void take_word(Cursor& cursor, Source& source) {
   }
 }
 
-/// A number with its digit separators, which would else look like character literals.
+/// Takes a number with its digit separators, which would otherwise look like character literals.
 void take_number(Cursor& cursor, Source& source) {
   const int line = cursor.line();
   const auto digits = cursor.take_while([](char c) { return is_word(c) || c == '\'' || c == '.'; });
@@ -138,7 +138,7 @@ std::string read_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The files below the folders `tops` of `root` that `wanted` takes, in the order of their paths.
+/// The files below the folders `tops` of `root` for which `wanted` is true, in the order of their paths.
 template <typename Predicate>
 std::vector<TextFile> read_files(const fs::path& root, std::initializer_list<const char*> tops,
                                  Predicate wanted) {
@@ -153,7 +153,7 @@ std::vector<TextFile> read_files(const fs::path& root, std::initializer_list<con
   return files;
 }
 
-/// What `git ls-files` says: nothing where git or its history is missing.
+/// The output of `git ls-files`; empty if git or its history is missing.
 std::vector<std::string> tracked_paths(const std::string& root) {
   std::string quoted = "'";
   for (const char c : root) quoted += c == '\'' ? "'\\''" : std::string(1, c);

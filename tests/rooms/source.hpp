@@ -1,4 +1,4 @@
-// C++ and CMake text, taken apart as far as the rules of the rooms need it.
+// C++ and CMake text, parsed as far as the rules of the rooms need it.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace rooms {
 
 /// A file of the tree.
 struct TextFile {
-  std::string path;  // from the top of the tree, with '/'
+  std::string path;  // from the root of the tree, with '/'
   std::string text;
 };
 
@@ -17,16 +17,16 @@ struct TextFile {
 struct Include {
   int line = 0;  // from 1
   std::string name;
-  bool quoted = false;  // "name", not <name>
+  bool quoted = false;  // "name", not in angle brackets
 };
 
-/// An identifier, a number or a single punctuation character. Comments and literals leave none.
+/// An identifier, a number or a single punctuation character. Comments and literals give no tokens.
 struct Token {
   int line = 0;  // from 1
   std::string text;
 };
 
-/// A C++ source: what it includes, and the rest of its code.
+/// A C++ source: its includes, and the tokens of its code.
 struct Source {
   std::string path;
   std::vector<Include> includes;
@@ -49,7 +49,7 @@ std::vector<Command> parse_cmake(std::string_view text);
 std::vector<TextFile> read_sources(const std::string& root);
 std::vector<TextFile> read_cmake_lists(const std::string& root);
 
-/// The paths that git tracks; without git's history all but the build and run folders.
+/// The paths that git tracks. Without git's history: all paths except those of build and run folders.
 std::vector<std::string> list_tree(const std::string& root);
 
 }  // namespace rooms

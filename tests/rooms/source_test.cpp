@@ -1,4 +1,4 @@
-// The text is taken apart as a compiler and CMake would.
+// The text is parsed as a compiler and CMake would parse it.
 #include "source.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// This tree keeps to its architecture.
+// This tree follows its architecture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,13 +55,15 @@ TEST(Tree, FilesIncludeTheStandardHeadersThatTheyUse) {
   EXPECT_EQ(listed(check_standard_headers(tree_sources())), "");
 }
 
-TEST(Tree, HeadersAndFunctionsAreShort) {
+TEST(Tree, HeadersFunctionsAndClassesAreSmall) {
   Findings findings;
   for (const TextFile& file : read_sources(SEIFBED_SOURCE_DIR)) {
     if (file.path.starts_with("tests/")) continue;
-    // The condensation tree still has the size that it grew to.
-    if (file.path != "seif/tree/condensation_tree.hpp")
+    // The condensation tree is larger than the limits.
+    if (file.path != "seif/tree/condensation_tree.hpp") {
       std::ranges::copy(check_header_length(file), std::back_inserter(findings));
+      std::ranges::copy(check_private_functions(parse_source(file)), std::back_inserter(findings));
+    }
     std::ranges::copy(check_function_lengths(parse_source(file)), std::back_inserter(findings));
   }
   EXPECT_EQ(listed(findings), "");

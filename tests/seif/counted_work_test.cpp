@@ -1,10 +1,12 @@
-// Each step of the constant-time filter by itself: the same local situation costs as many blocks, and no
-// allocation, in a map of 20,000 landmarks as in one of 1,000. Mean recovery beyond the window is apart.
+// Each step of the constant-time filter alone: the same local situation touches as many blocks in a map of
+// 20,000 landmarks as in one of 1,000, and allocates nothing. Mean recovery beyond the window is tested
+// separately.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -22,8 +24,9 @@ namespace {
 constexpr int small_map = 1'000;
 constexpr int large_map = test::under_sanitizer ? 2'000 : 20'000;
 
-/// A robot at the end of a straight corridor with a landmark on either side of each metre. It has seen all of
-/// them, those of the last three metres in each scan, and without error, so that the mean needs no recovery.
+/// A robot at the end of a straight corridor with one landmark on each side of every metre. It has seen all of
+/// them, the landmarks of the last three metres in each scan. There are no errors, so the mean needs no
+/// recovery.
 class Corridor {
  public:
   explicit Corridor(int landmarks) : state_({.mean = {}, .covariance = 1e-4 * Eigen::Matrix3d::Identity()}) {
@@ -100,7 +103,7 @@ void expect_the_same_work(const std::function<void(Corridor&)>& prepare,
 
 const auto nothing = [](Corridor&) {};
 
-/// Back where the last landmarks that were dropped stand.
+/// Turns back to the landmarks that were dropped last.
 void look_back(Corridor& corridor) {
   const int end = corridor.state().landmark_count() / 2;
   corridor.look(end - 5, end);
@@ -148,8 +151,8 @@ TEST(CountedWork, ChooseToDropAllocatesNothing) {
   }
 }
 
-/// How many couplings the robot and some landmarks have: active ones, passive ones with links to them, and
-/// one in the middle of the map. Reads them again, for which nothing may be allocated or counted.
+/// The number of couplings of the robot and of some landmarks: active ones, passive ones with links to them,
+/// and one in the middle of the map. Reads them twice; the second time, nothing may be allocated or counted.
 std::vector<std::size_t> read_couplings(const InformationState& state) {
   const int end = state.landmark_count();
   std::vector<Coupling> couplings;

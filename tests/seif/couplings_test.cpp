@@ -1,4 +1,4 @@
-// What filters tell of the rows of their matrix, against the whole matrix.
+// The rows of the matrices as the filters return them, against the whole matrix.
 #include "seif/couplings.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "dense_oracle.hpp"
@@ -24,7 +26,7 @@ using test::RingDrive;
 using Row = std::map<LandmarkId, double>;  // strengths, by what the coupling leads to
 using Rows = std::map<LandmarkId, Row>;    // no_landmark: the robot
 
-/// Each told once.
+/// Expects each coupling once.
 Row as_row(const std::vector<Coupling>& couplings) {
   Row row;
   for (const Coupling& coupling : couplings) {
@@ -33,7 +35,7 @@ Row as_row(const std::vector<Coupling>& couplings) {
   return row;
 }
 
-/// By the normalised matrix; `ids` by slot.
+/// The rows of the normalised matrix; `ids` by slot.
 Rows rows_of(const Eigen::MatrixXd& M, const std::vector<LandmarkId>& ids) {
   const Eigen::VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd normalised = scale.asDiagonal() * M * scale.asDiagonal();
@@ -168,7 +170,7 @@ TEST_P(CouplingsOf, AreTheRowsOfTheMatrix) {
   const std::unique_ptr<Estimator> filter = driven(1.3);
   EXPECT_EQ(filter->belief_matrix(),
             GetParam() == "ekf" ? BeliefMatrix::covariance : BeliefMatrix::information);
-  std::vector<Coupling> couplings(3);  // something to be replaced
+  std::vector<Coupling> couplings(3);  // must be replaced
   for (const auto& [of, expected] : rows_of(matrix_of(*filter), ids_of(filter->map()))) {
     filter->couplings(of, couplings);
     expect_equal(as_row(couplings), expected);
@@ -194,7 +196,7 @@ TEST_P(CouplingsOf, AreTheSameFromBothEnds) {
     for (const auto& [other, strength] : row) EXPECT_EQ(rows.at(other).at(of), strength);  // to the bit
     links += row.size();
   }
-  // A link that has come to nothing still counts as one.
+  // A link whose block has become zero still counts.
   EXPECT_LE(links / 2, static_cast<std::size_t>(filter->counts().links));
   EXPECT_GT(links / 2, static_cast<std::size_t>(filter->counts().links) * 9 / 10);
 }

@@ -39,8 +39,8 @@ void motion_update(DenseBelief& belief, const Odometry& odometry) {
   SUS.topLeftCorner<3, 3>() = predicted.noise_factor * predicted.noise_factor.transpose();
   const Eigen::MatrixXd H_inverse = inverse(belief.H);
   const Eigen::VectorXd mean = H_inverse * belief.b;
-  // The mean of (34) is that of the linearised motion, g(mu) + (I + A)(mean - mu), where mu is only nearly
-  // the mean.
+  // The mean of (34) is that of the linearised motion, g(mu) + (I + A)(mean - mu), since mu is only
+  // approximately the mean.
   Eigen::VectorXd moved = belief.mu;
   moved.head<3>() << predicted.pose.x, predicted.pose.y, predicted.pose.theta;
   belief.H = inverse(I_plus_A * H_inverse * I_plus_A.transpose() + SUS);

@@ -1,5 +1,6 @@
-// The information filter written down densely, straight from the report's equations, with inverses of the
-// whole matrix where the report has them: what the block-sparse steps are held against.
+// The information filter in dense form, straight from the report's equations. It inverts the whole matrix where
+// the report does so. It is the reference for the block-sparse steps. Here the report's names are used: H for
+// Omega, b for xi.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +24,8 @@ Eigen::MatrixXd symmetric(const Eigen::SparseMatrix<double>& lower);
 
 DenseBelief dense(const InformationState& state);
 
-/// M^-1 and M^-1 v. Here, because Eigen's factorisations take seconds to compile in each file that names one.
+/// M^-1 and M^-1 v. Compiled once, since Eigen's factorisations take seconds to compile in each file that uses
+/// one.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& M);
 Eigen::VectorXd solve(const Eigen::MatrixXd& M, const Eigen::VectorXd& v);  // M symmetric
 
@@ -34,10 +36,10 @@ void recover_mean(InformationState& state);
 
 Pose2 pose_of(const DenseBelief& belief);
 
-/// Eqs. (33), (34) as they stand: by the covariance.
+/// Eqs. (33), (34) as printed, through the covariance.
 void motion_update(DenseBelief& belief, const Odometry& odometry);
 
-/// A landmark of which nothing is known yet.
+/// Adds a landmark without information.
 void add_landmark(DenseBelief& belief, const Eigen::Vector2d& mean);
 
 /// Eqs. (21), (22).
@@ -47,26 +49,26 @@ void measurement_update(DenseBelief& belief, int slot, const Observation& observ
 /// The columns of the identity (n x n) for the robot, if `robot`, and for landmark slots: the report's S.
 Eigen::MatrixXd projection(Eigen::Index n, bool robot, const std::vector<int>& slots);
 
-/// H S (S' H S)^-1 S' H: what marginalising S out takes away.
+/// H S (S' H S)^-1 S' H: the matrix that is subtracted when S is marginalised out.
 Eigen::MatrixXd taken_away(const Eigen::MatrixXd& H, const Eigen::MatrixXd& S);
 
-/// The belief over robot and active landmarks that the report takes p(x | Y+) from: conditioned on Y- = 0,
-/// eq. (47).
+/// The belief over robot and active landmarks from which the report takes p(x | Y+): conditioned on Y- = 0, eq.
+/// (47).
 Eigen::MatrixXd conditioned(const Eigen::MatrixXd& H, const std::vector<int>& active);
 
 /// The same with Y- marginalised out: Eustice's modified rule.
 Eigen::MatrixXd marginalised(const Eigen::MatrixXd& H, const std::vector<int>& active);
 
-/// The belief conditioned on Y- = 0 without what it knows of the place and heading of the whole: H0 floated
-/// by its rigid-body modes, written down from their definition.
+/// The belief conditioned on Y- = 0, without its information about position and heading of the whole: H0 with
+/// its rigid-body modes removed, written down from the definition.
 Eigen::MatrixXd floated(const Eigen::MatrixXd& H, const Eigen::VectorXd& mu, const std::vector<int>& active);
 
 /// Eq. (50), with `H0` the belief over robot and active landmarks, and `dropped` the slots of Y0.
 Eigen::MatrixXd sparsified(const Eigen::MatrixXd& H, const Eigen::MatrixXd& H0,
                            const std::vector<int>& dropped);
 
-/// A drive through random landmarks, with passive landmarks and links among them: the states that the tests
-/// start from.
+/// A drive through random landmarks, which gives passive landmarks and links between them: the initial states
+/// of the tests.
 struct RandomDrive {
   explicit RandomDrive(unsigned seed) : random(seed) {}
 

@@ -1,4 +1,4 @@
-// Information states with passive landmarks and links among them, as a random drive leaves them behind.
+// Information states after a random drive, with passive landmarks and links between them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
 
-/// Drives on with the report's filter: at most 5 active landmarks, and a mean that is never exact.
+/// Continues the drive with the report's filter: at most 5 active landmarks, and a mean that is never exact.
 inline void drive(InformationState& state, oracle::RandomDrive& random, int updates) {
   std::vector<int> surplus;
   Pose2 T_world_robot = state.pose();

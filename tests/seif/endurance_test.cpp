@@ -1,4 +1,4 @@
-// What must still hold after thousands of updates.
+// Properties that must still hold after thousands of updates.
 
 #include <gtest/gtest.h>
 
@@ -43,10 +43,10 @@ void expect_proper(const InformationState& state) {
   }
 }
 
-/// Products of three factors need not be symmetric to the bit. What matters is that it does not grow.
+/// Products of three factors need not be symmetric to the last bit, but the asymmetry must not grow.
 constexpr double last_bits = 4 * std::numeric_limits<double>::epsilon();
 
-/// The largest difference within the window, over its largest element.
+/// The largest difference between the two triangles of the window, relative to its largest element.
 double asymmetry(const InformationState& state) {
   const Eigen::MatrixXd Omega = state.Omega();
   return (Omega - Omega.transpose()).cwiseAbs().maxCoeff() / Omega.cwiseAbs().maxCoeff();
@@ -59,7 +59,7 @@ struct Endurance {
   /// The most landmarks that may be active after a scan of `in_view` landmarks.
   std::function<int(int in_view)> bound;
 
-  /// How a failure calls it.
+  /// The name in the message of a failure.
   friend void PrintTo(const Endurance& endurance, std::ostream* os) { *os << endurance.filter; }
 };
 
@@ -78,7 +78,7 @@ TEST_P(EnduringFilter, StaysProperSymmetricAndWithinItsBounds) {
   RingDrive drive(60, 21);
   const auto filter = test::make(GetParam().filter, drive.setup());
   const InformationState& state = state_of(*filter);
-  drive.step(*filter);  // all is new, and nothing can be dropped yet
+  drive.step(*filter);  // every landmark is new, and none can be dropped yet
   const int updates = under_sanitizer ? GetParam().under_sanitizer : GetParam().updates;
   for (int k = 1; k <= updates; ++k) {
     drive.step(*filter);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cstdint>
 
 #include "dense_oracle.hpp"
 #include "ring_drive.hpp"
@@ -42,8 +43,8 @@ TEST(Eseif, BoundsTheLinksOfTheRobotAndIsExactlySparse) {
 }
 
 TEST(Eseif, NeverClaimsToKnowMoreThanTheDenseFilter) {
-  // It throws odometry away and approximates nothing, so that what it believes is wider in every direction,
-  // but for the points at which the two linearise.
+  // The filter discards odometry and approximates nothing. So its belief is wider in every direction, apart
+  // from the effect of different linearisation points.
   RingDrive drive_sparse(40, 3);
   RingDrive drive_dense(40, 3);
   Eseif sparse(drive_sparse.setup(), {});
@@ -69,10 +70,10 @@ TEST(Eseif, TakesAScanOfNewLandmarksOnlyWithoutRelocating) {
   EXPECT_GT(filter.counts().active_landmarks, 3);
 }
 
-constexpr double relocates_at = 6.0;  // [s] the first time, in this drive
+constexpr double relocates_at = 6.0;  // [s] time of the first relocation in this drive
 
-/// log det of the information after the first scan that relocates, in which the observation `repeated`, if
-/// there is one, came twice.
+/// log det of the information after the first scan that relocates. The observation `repeated`, if there is one,
+/// is twice in that scan.
 double information_after_relocation(int repeated) {
   RingDrive drive(60, 2);
   Eseif filter(drive.setup(), {.theta_x = 12, .relocation_landmarks = 4});

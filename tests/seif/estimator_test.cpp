@@ -1,9 +1,12 @@
-// What the interface gives to filters that do not override it, and landmarks() of those that do.
+// The default functions of the interface, and landmarks() of the filters that override it.
 #include "seif/estimator.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "every_filter.hpp"
@@ -14,7 +17,7 @@ namespace {
 
 using test::RingDrive;
 
-/// Has a map, and nothing that it need not have.
+/// Has a map, and only the functions that an estimator must have.
 class MapAlone final : public Estimator {
  public:
   void motion_update(const Odometry&) override {}
@@ -34,7 +37,7 @@ class MapAlone final : public Estimator {
 };
 
 std::vector<LandmarkEstimate> landmarks(const Estimator& filter, const std::vector<LandmarkId>& asked_for) {
-  std::vector<LandmarkEstimate> out(3);  // something to be replaced
+  std::vector<LandmarkEstimate> out(3);  // must be replaced
   filter.landmarks(asked_for, out);
   return out;
 }
@@ -78,11 +81,11 @@ TEST_P(LandmarksOf, AreThoseOfTheMapInTheOrderAskedFor) {
   RingDrive drive(60, 8);
   const auto filter = test::make(GetParam(), drive.setup());
   EXPECT_TRUE(landmarks(*filter, {0, 1}).empty());
-  for (int k = 0; k < drive.steps_for_a_round() / 2; ++k) drive.step(*filter);  // sees some of them
+  for (int k = 0; k < drive.steps_for_a_round() / 2; ++k) drive.step(*filter);  // sees some of the landmarks
 
   std::vector<LandmarkId> asked_for;
   for (int k = 0; k < 60; ++k) asked_for.push_back(k * 7 % 60);
-  asked_for.push_back(5'000);  // in none of the index's pages
+  asked_for.push_back(5'000);  // an id that no page of the index covers
   std::vector<LandmarkEstimate> expected;
   const std::vector<LandmarkEstimate> map = filter->map();
   for (const LandmarkId landmark : asked_for) {

@@ -1,10 +1,11 @@
-// The filters of the library by name: what tests are parameterised over that hold for all of them.
+// The filters of the library by name, for tests that hold for all of them.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace seif::test {
 
-/// Not a name of the library: `seif` with its other mean.
+/// `seif` with the mean by groups. The library does not know this name.
 inline const std::string seif_by_groups = "seif_by_groups";
 
 inline std::vector<std::string> every_filter() {
@@ -22,7 +23,7 @@ inline std::vector<std::string> every_filter() {
   return names;
 }
 
-/// For INSTANTIATE_TEST_SUITE_P: the filter's name as the test's.
+/// For INSTANTIATE_TEST_SUITE_P: names the test after the filter.
 inline std::string name_of(const testing::TestParamInfo<std::string>& filter) { return filter.param; }
 
 /// The filter with its defaults.

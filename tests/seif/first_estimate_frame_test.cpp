@@ -1,10 +1,11 @@
-// Where the pose stands among first estimates, and which levers are taken between them.
+// The pose in the frame of the first estimates, and which levers are used there.
 
 #include "seif/first_estimate_frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "seif/information_state.hpp"
@@ -18,7 +19,7 @@ const Pose2 pose{3.0, 1.0, 0.4};
 const Pose2 turned_and_moved{40.0, -7.0, 0.1};  // T_first_mean
 constexpr double sighting_sd = 0.05;            // [m]
 
-/// Landmarks about the robot, at first estimates that all of them have moved from together.
+/// Landmarks around the robot that have all moved together from their first estimates.
 std::vector<FirstEstimate> landmarks_moved_by(const Pose2& T_first_mean, int count, double phase) {
   std::vector<FirstEstimate> landmarks;
   for (int k = 0; k < count; ++k) {
@@ -74,7 +75,8 @@ TEST(FirstEstimateFrame, IsKeptWhereTheOthersDoNotAgree) {
   EXPECT_FALSE(framed.another_frame);
 }
 
-/// Six active landmarks seen from the origin, of which the last two have been moved since, by 50 m or so far.
+/// Six active landmarks, seen from the origin. The last two have been moved since their first estimates, by
+/// `moved` [m].
 InformationState closed_loop(double moved = 50.0) {
   InformationState state({.mean = {}, .covariance = 0.01 * Eigen::Matrix3d::Identity()});
   state.first_estimates().settle_after(1);
@@ -84,7 +86,7 @@ InformationState closed_loop(double moved = 50.0) {
     state.activate(state.add_landmark(k, k < 4 ? p : Eigen::Vector2d(p.x() + moved, p.y())));
   }
   for (const int slot : {4, 5}) state.move_landmark(slot, {-moved, 0.0});
-  state.move_pose({0.1, 0.0, 0.0});
+  move_to_prediction(state, {0.1, 0.0, 0.0});
   return state;
 }
 
@@ -102,7 +104,7 @@ TEST(FirstEstimateFrame, LeversAreBetweenFirstEstimatesWhereTheseAreNearAndBetwe
   EXPECT_NEAR(other->x, 50.1, 1e-12);
 }
 
-// At 3 m, 0.5 m are ten standard deviations of a sighting, and a sixth of the lever.
+// At a distance of 3 m, 0.5 m is ten standard deviations of a sighting, and a sixth of the lever.
 TEST(FirstEstimateFrame, IsAnotherOneAsSoonAsNoNoiseExplainsIt) {
   EXPECT_TRUE(other_linearisation_pose(closed_loop(0.5)));
   EXPECT_FALSE(other_linearisation_pose(closed_loop(0.2)));
@@ -126,7 +128,7 @@ TEST(FirstEstimateFrame, NewLandmarksHaveTheirFirstEstimateWhereTheyAreFromThePo
   InformationState state = closed_loop();
   for (int slot = 0; slot < 4; ++slot) state.move_landmark(slot, {0.0, 8.0});
   state.move_robot({0.0, 8.0, 0.0});  // an update has moved the robot and all that is near it
-  state.move_pose({0.1, 8.0, 0.0});
+  move_to_prediction(state, {0.1, 8.0, 0.0});
   const int slot = state.add_landmark(99, {2.0, 9.0});
   EXPECT_LT((linearisation_point(state, slot) - Eigen::Vector2d(2.0, 1.0)).norm(), 1e-9);
   EXPECT_LT((lever(state, slot, state.mean(slot)) - Eigen::Vector2d(1.9, 1.0)).norm(), 1e-9);

@@ -1,4 +1,5 @@
-// Jacobians at first estimates: against the rule written down densely, and what they do not learn.
+// Jacobians at first estimates: against a dense implementation of the rule, and what the filter does not learn
+// because of them.
 
 #include <gtest/gtest.h>
 
@@ -24,11 +25,11 @@ using oracle::RandomDrive;
 using test::relative;
 using test::T_robot_sensor;
 
-/// The heading is hardly known, so that what would be learned of it shows.
+/// The heading is almost unknown, so that any information gained about it shows.
 const PoseEstimate vague_start{.mean = {0.1, -0.2, 0.3},
                                .covariance = Eigen::Vector3d(0.01, 0.02, 0.1).asDiagonal().toDenseMatrix()};
 
-/// A robot on a circle of 2 m within a circle of ten landmarks, of which it sees those within 4 m.
+/// A robot on a circle of 2 m inside a circle of ten landmarks. It sees those within 4 m.
 class World {
  public:
   explicit World(unsigned seed) : random_(seed) {}
@@ -57,7 +58,8 @@ class World {
   RandomDrive random_;
 };
 
-/// One scan as the filter takes it: the known landmarks, the exact mean, then the new ones from there.
+/// Takes in one scan as the filter does: the known landmarks, the exact mean, then the new landmarks from
+/// there.
 void take_in(InformationState& state, const std::vector<Observation>& scan) {
   state.begin_scan();
   std::vector<ObservationFactor> factors;
@@ -80,12 +82,12 @@ void take_in(InformationState& state, const std::vector<Observation>& scan) {
   update_first_estimates(state);
 }
 
-/// The same filter written down densely, with covariances and an exact mean, so that xi = Omega mu.
+/// The same filter in dense form, with covariances and an exact mean, so that xi = Omega mu.
 struct DenseFirstEstimates {
   int settled_after;
   Eigen::MatrixXd Omega = vague_start.covariance.inverse();
   Eigen::VectorXd mu = Eigen::Vector3d(vague_start.mean.x, vague_start.mean.y, vague_start.mean.theta);
-  Eigen::VectorXd at = mu;     // where the Jacobians are taken: predicted pose, first estimates
+  Eigen::VectorXd at = mu;     // linearisation points: predicted pose, first estimates
   std::vector<int> ids = {};   // by slot
   std::vector<int> seen = {};  // scans, by slot
 
@@ -106,8 +108,8 @@ struct DenseFirstEstimates {
     at.head<3>() = to;
   }
 
-  /// Where the robot is once the means of the landmarks are brought upon their first estimates, all of which
-  /// are near.
+  /// The pose after the rigid motion that brings the means of the landmarks to their first estimates. All
+  /// landmarks are near.
   Eigen::Vector3d pose_among_first_estimates(const Pose2& carried) const {
     const auto landmarks = static_cast<Eigen::Index>(ids.size());
     if (landmarks < 2) return {carried.x, carried.y, carried.theta};
@@ -120,7 +122,7 @@ struct DenseFirstEstimates {
     return there;
   }
 
-  /// J' at the mean (n x 2), but that turning all about the robot turns the first estimates.
+  /// J' at the mean (n x 2), except that turning everything about the robot turns the first estimates.
   Eigen::MatrixXd slopes(int slot) const {
     const int row = InformationState::row_of(slot);
     const PredictedObservation there = predict_observation(pose(), T_robot_sensor, mu.segment<2>(row));
@@ -158,7 +160,8 @@ struct DenseFirstEstimates {
     }
   }
 
-  /// Omega of the variables in which turning all about the new first estimates is what it was about the old.
+  /// Changes variables, so that turning everything has the same effect on Omega about the new first estimates
+  /// as before about the old ones.
   void move_first_estimate(int row, const Eigen::Vector2d& to) {
     const Eigen::Vector2d by = to - at.segment<2>(row);
     Eigen::MatrixXd T = Eigen::MatrixXd::Identity(Omega.rows(), Omega.rows());
@@ -219,19 +222,19 @@ InformationState driven(unsigned seed, int steps, int first_estimates) {
   return state;
 }
 
-/// Where the steps linearise (3+2N x 1).
+/// The points at which the steps linearise (3+2N x 1).
 Eigen::VectorXd linearisation_points(const InformationState& state) {
   Eigen::VectorXd at = full_mu(state);
-  const Pose2 pose = linearisation_pose(state);
-  at.head<3>() << pose.x, pose.y, pose.theta;
+  const Pose2 point = linearisation_pose(state);
+  at.head<3>() << point.x, point.y, point.theta;
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
     at.segment<2>(InformationState::row_of(slot)) = linearisation_point(state, slot);
   }
   return at;
 }
 
-/// Both translations, and the rotation about the origin of the world: these are carried along by motions and
-/// unseen by observations, taken at one set of points (3+2N x 3).
+/// Both translations, and the rotation about the world's origin, at one set of points (3+2N x 3). Motions carry
+/// these modes along, and observations do not see them.
 Eigen::MatrixXd rigid_modes(const Eigen::VectorXd& at) {
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(at.size(), 3);
   P.topRows<3>() << 1, 0, -at(1), 0, 1, at(0), 0, 0, 1;
@@ -241,7 +244,7 @@ Eigen::MatrixXd rigid_modes(const Eigen::VectorXd& at) {
   return P;
 }
 
-/// What is known of the rigid-body modes, over what the start knew of them: the largest of three ratios.
+/// The information about the rigid-body modes, divided by that of the start: the largest of three ratios.
 double gained(const InformationState& state) {
   const Eigen::VectorXd at = linearisation_points(state);
   const Eigen::MatrixXd P = rigid_modes(at);
@@ -256,8 +259,8 @@ double heading_variance(const InformationState& state) {
   return oracle::inverse(oracle::symmetric(full_Omega(state)))(2, 2);
 }
 
-// Nothing observes where in the world the map lies, nor how it is turned. Motion noise takes away of what the
-// start knew of that, and no scan may add to it.
+// Nothing observes where in the world the map lies, nor how it is turned. Motion noise reduces what the start
+// knew of this, and no scan may add to it.
 TEST(FirstEstimates, LearnNothingOfPlaceAndHeadingOfTheMapWhereJacobiansAtTheMeanDo) {
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     for (const int settled_after : {1, 5}) {

@@ -1,11 +1,15 @@
-// The gate of ekf and seif: what it leaves out, and that its covariance is the filter's own.
+// The gate of ekf and seif: which observations it ignores, and that its covariance is the filter's own.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "seif/dense/ekf.hpp"
 #include "seif/models.hpp"
@@ -17,7 +21,7 @@ namespace {
 const StageDone nobody = [](Stage) {};
 constexpr int landmark_count = 40;
 
-/// A drive round a circle of 5 m with landmarks on both sides, of which those within 4 m are seen.
+/// A drive around a circle of 5 m with landmarks on both sides. Those within 4 m are seen.
 class Round {
  public:
   explicit Round(unsigned seed) : random_(seed) {}
@@ -112,9 +116,9 @@ TEST_P(Gate, ChangesNothingWhereNothingIsLeftOut) {
   EXPECT_EQ(with->counts().gated, 0);
 }
 
-/// One observation, spoilt so far that its normalised innovation squared is known from the covariance that
-/// the filter tells at any cost: the gate must lie exactly there. With first estimates the Jacobians of seif
-/// are others.
+/// One observation is changed so that its normalised innovation squared is known, by the covariance that the
+/// filter can compute off the live path. The gate must be exactly there. With first estimates the Jacobians of
+/// seif are different.
 TEST_P(Gate, LiesWhereTheFiltersOwnCovarianceSays) {
   for (const double gate : {0.999, 1.001}) {
     Round round(3);
@@ -162,7 +166,7 @@ struct WithOutliers {
   std::int64_t right = 0;  // [-]
 };
 
-/// A drive in which every tenth scan has a bearing that is wrong by 0.2.
+/// A drive in which every tenth scan has a bearing with an error of 0.2.
 WithOutliers with_outliers(Estimator& filter) {
   constexpr int steps = 600;
   Round round(4);
@@ -185,7 +189,7 @@ WithOutliers with_outliers(Estimator& filter) {
   return found;
 }
 
-// Of those that are right, 1.1 % lie beyond three sigma: exp(-9/2).
+// Of the right observations, 1.1 % are beyond three sigma: exp(-9/2).
 TEST_P(Gate, RobustWeightsWeakenOutliersAndKeepThem) {
   const auto plain = make(GetParam(), 0.0);
   const auto robust = make(GetParam(), 0.0, 5, 3.0);

@@ -1,10 +1,13 @@
-// Situations in which filters break, put to every filter: none throws, and what it believes stays proper.
+// Situations in which filters fail, tested with every filter: no filter throws, and every belief stays proper.
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <random>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -21,7 +24,7 @@ using test::proper_belief;
 
 using Sights = std::vector<std::pair<LandmarkId, Eigen::Vector2d>>;  // landmarks and where they are
 
-/// A robot on a circle of 2 m within a circle of twelve landmarks, of which it sees those within 4 m.
+/// A robot on a circle of 2 m inside a circle of twelve landmarks. It sees those within 4 m.
 class HardCase : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
@@ -132,8 +135,8 @@ TEST_P(HardCase, LandmarksAtTheSensorAreTaken) {
     for (const auto& [landmark, p] : in_view()) {
       scan.observations.push_back(random.observation(landmark, T_world_sensor, p));
     }
-    // One a tenth of a millimetre away, and one under the sensor itself, whose bearing is what the sensor
-    // makes of it.
+    // One landmark is a tenth of a millimetre away, and one is exactly at the sensor, where the bearing is
+    // arbitrary.
     for (const auto& [landmark, range, bearing] : {std::tuple(50, 1e-4, 0.7), std::tuple(51, 0.0, -2.1)}) {
       Observation z{.landmark = landmark, .range = range, .bearing = bearing + random.uniform(-0.02, 0.02)};
       z.covariance << 0.0025, 0.0002, 0.0002, 0.0004;
@@ -154,7 +157,7 @@ TEST_P(HardCase, ARobotThatNeverMovesStaysAsSureOfItsPoseAsItBegan) {
   }
   const auto marginals = proper_belief(*filter);
   ASSERT_TRUE(marginals);
-  // No scan tells where in the world it stands, and no noise widens that.
+  // No scan tells where in the world the robot stands, and no noise makes this more uncertain.
   EXPECT_LT((marginals->pose - start_covariance).norm(), 0.01 * start_covariance.norm());
   expect_near_truth(0.05, 0.02);
   for (const auto& [landmark, p] : in_view()) EXPECT_LT((estimate(landmark) - p).norm(), 0.1);
@@ -171,10 +174,11 @@ TEST_P(HardCase, AHundredObservationsInOneScanAreTaken) {
   }
   ASSERT_TRUE(proper_belief(*filter));
   EXPECT_EQ(filter->map().size(), 100U);
-  // The filters that hold at theta_x links drop 94 landmarks in view, and then take the pose, given the six
-  // others, for independent of them. That is false by whole standard deviations, under the modified rule too,
-  // and the poses of these filters are soon a radian off (as (50) written down densely has them): bounded
-  // links are no bound on what is in view. The others keep what is in view or cut no link.
+  // The filters that keep theta_x links drop 94 landmarks in view, and then treat the pose, given the six
+  // others, as independent of them. This is wrong by whole standard deviations, also under the modified rule.
+  // The poses of these filters soon have errors of a radian; a dense implementation of (50) gives the same. A
+  // bound on the links does not bound the number of landmarks in view. The other filters keep the landmarks in
+  // view, or cut no link.
   const auto drops_in_view = {"seif_report", "seif_exact", "seif_modified"};
   if (std::ranges::find(drops_in_view, GetParam()) == drops_in_view.end()) expect_near_truth(0.1, 0.05);
 }
@@ -182,9 +186,9 @@ TEST_P(HardCase, AHundredObservationsInOneScanAreTaken) {
 TEST_P(HardCase, ALandmarkTwiceInOneScanCountsTwice) {
   const std::unique_ptr<Estimator> once = std::exchange(filter, nullptr);
   SetUp();
-  for (int k = 0; k < 3; ++k) {  // new to begin with, then known
+  for (int k = 0; k < 3; ++k) {  // new at first, then known
     Scan twice{.t = t, .observations = {}};
-    Scan sharper = twice;  // once, with half the covariance: the same information
+    Scan sharper = twice;  // one observation with half the covariance: the same information
     for (const auto& [landmark, p] : in_view()) {
       const Observation z = random.observation(landmark, sensor(), p);
       twice.observations.insert(twice.observations.end(), 2, z);
@@ -217,7 +221,7 @@ TEST_P(HardCase, AnEmptyScanTellsNothing) {
   ASSERT_TRUE(before && after);
   EXPECT_EQ(filter->map().size(), landmarks);
   EXPECT_LT((after->pose - before->pose).norm(), 1e-9 * before->pose.norm());
-  EXPECT_NEAR(filter->pose().x, pose.x, 1e-2);  // the mean recovery may go on
+  EXPECT_NEAR(filter->pose().x, pose.x, 1e-2);  // the mean recovery may continue
   double last = after->pose.determinant();
   for (int k = 0; k < 20; ++k) {
     move();

@@ -1,8 +1,10 @@
-// The innovation of a scan as the filters count it, against its definition from their own covariance.
+// The innovation of a scan as the filters compute it, against its definition from their own covariance.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "path_drive.hpp"
 #include "seif/dense/ekf.hpp"
@@ -58,7 +60,7 @@ std::unique_ptr<Estimator> make(const std::string& type, const EstimatorSetup& s
   SeifOptions options;
   options.first_estimates = 0;  // Jacobians at the mean, as in the definition
   options.closing_gate = 0.0;
-  options.theta_max = 100;  // what sparsification leaves out is no part of it
+  options.theta_max = 100;  // no sparsification, which would change the belief
   return std::make_unique<Seif>(setup, options);
 }
 
@@ -87,7 +89,7 @@ TEST_P(InnovationOf, AScanIsThatOfItsDefinition) {
   EXPECT_NEAR(sum / degrees, 1.0, 0.25);
 }
 
-// What a filter tells of one scan is not there any more after the next.
+// The innovation of one scan is not reported again for the next scan.
 TEST_P(InnovationOf, AScanWithoutKnownLandmarksIsZero) {
   test::PathDrive path = drive();
   const auto filter = make(GetParam(), path.setup());

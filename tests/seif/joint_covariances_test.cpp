@@ -1,7 +1,9 @@
-// What filters tell of the pose together with a landmark, against the inverse of the whole matrix.
+// The joint covariances of the pose and landmarks, against the inverse of the whole matrix.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "driven_state.hpp"
@@ -13,7 +15,7 @@
 namespace seif {
 namespace {
 
-/// Rows and columns of the pose and of the landmarks in these slots.
+/// The rows and columns of the pose and of the landmarks in these slots.
 Eigen::MatrixXd joint_block(const Eigen::MatrixXd& Sigma, const std::vector<int>& slots) {
   std::vector<int> rows{0, 1, 2};
   for (const int slot : slots) rows.insert(rows.end(), {3 + 2 * slot, 4 + 2 * slot});

@@ -1,4 +1,4 @@
-// The dense matrix of any filter of the library: what its own answers are held against.
+// The dense matrix of any filter of the library, as a reference for the filter's own answers.
 #pragma once
 
 #include "dense_oracle.hpp"

@@ -9,13 +9,14 @@
 namespace seif {
 namespace {
 
-constexpr double step = 1e-6;       // of the central differences
-constexpr double tolerance = 1e-8;  // their error: step^2 times third derivatives, and rounding over step
+constexpr double difference_step = 1e-6;  // of the central differences
+// The error of these: the square of the step times third derivatives, and rounding over the step.
+constexpr double tolerance = 1e-8;
 
 const std::array<Pose2, 5> poses{{{0, 0, 0}, {1, -2, 0.7}, {-3, 5, 3.1}, {10, 0.5, -3.1}, {0.2, 0.1, -1.5}}};
 const std::array<Pose2, 4> increments{{{0.3, 0, 0}, {0.3, 0.02, 0.4}, {0, 0, 1.0}, {-0.2, 0.01, -0.3}}};
 const std::array<Pose2, 2> mounts{{{0, 0, 0}, {0.2, -0.1, 0.5}}};
-const Eigen::Vector2d landmark(2.5, 3.5);
+const Eigen::Vector2d p_landmark(2.5, 3.5);
 
 Pose2 shifted(Pose2 pose, int coordinate, double by) {
   std::array<double*, 3>{&pose.x, &pose.y, &pose.theta}[static_cast<std::size_t>(coordinate)][0] += by;
@@ -32,9 +33,9 @@ TEST(PredictPose, HasTheJacobianOfItsCentralDifferences) {
       const Odometry u{.t = 0, .T_previous_current = increment};
       const PredictedPose predicted = predict_pose(pose, u);
       for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d numeric = difference(predict_pose(shifted(pose, i, step), u).pose,
-                                                   predict_pose(shifted(pose, i, -step), u).pose) /
-                                        (2 * step);
+        const Eigen::Vector3d numeric = difference(predict_pose(shifted(pose, i, difference_step), u).pose,
+                                                   predict_pose(shifted(pose, i, -difference_step), u).pose) /
+                                        (2 * difference_step);
         EXPECT_LT((predicted.J_wrt_pose.col(i) - numeric).norm(), tolerance);
       }
     }
@@ -49,9 +50,9 @@ TEST(PredictPose, TurnsTheNoiseOfTheIncrementIntoTheWorld) {
     const PredictedPose predicted = predict_pose(pose, u);
     Eigen::Matrix3d J;  // wrt the increment
     for (int i = 0; i < 3; ++i) {
-      J.col(i) = difference(pose * shifted(u.T_previous_current, i, step),
-                            pose * shifted(u.T_previous_current, i, -step)) /
-                 (2 * step);
+      J.col(i) = difference(pose * shifted(u.T_previous_current, i, difference_step),
+                            pose * shifted(u.T_previous_current, i, -difference_step)) /
+                 (2 * difference_step);
     }
     const Eigen::Matrix3d R = predicted.noise_factor * predicted.noise_factor.transpose();
     EXPECT_LT((R - J * covariance * J.transpose()).norm(), 1e-12);
@@ -73,21 +74,21 @@ TEST(PredictPose, TakesNoiseOfAnyRank) {
 TEST(PredictObservation, HasTheJacobiansOfItsCentralDifferences) {
   for (const Pose2& pose : poses) {
     for (const Pose2& mount : mounts) {
-      const PredictedObservation predicted = predict_observation(pose, mount, landmark);
+      const PredictedObservation predicted = predict_observation(pose, mount, p_landmark);
       const auto numeric = [](const Eigen::Vector2d& plus, const Eigen::Vector2d& minus) {
-        return Eigen::Vector2d((plus.x() - minus.x()) / (2 * step),
-                               wrap_angle(plus.y() - minus.y()) / (2 * step));
+        return Eigen::Vector2d((plus.x() - minus.x()) / (2 * difference_step),
+                               wrap_angle(plus.y() - minus.y()) / (2 * difference_step));
       };
       for (int i = 0; i < 3; ++i) {
         const Eigen::Vector2d column =
-            numeric(predict_observation(shifted(pose, i, step), mount, landmark).z,
-                    predict_observation(shifted(pose, i, -step), mount, landmark).z);
+            numeric(predict_observation(shifted(pose, i, difference_step), mount, p_landmark).z,
+                    predict_observation(shifted(pose, i, -difference_step), mount, p_landmark).z);
         EXPECT_LT((predicted.J_wrt_pose.col(i) - column).norm(), tolerance);
       }
       for (int i = 0; i < 2; ++i) {
-        const Eigen::Vector2d d = step * Eigen::Vector2d::Unit(i);
-        const Eigen::Vector2d column = numeric(predict_observation(pose, mount, landmark + d).z,
-                                               predict_observation(pose, mount, landmark - d).z);
+        const Eigen::Vector2d d = difference_step * Eigen::Vector2d::Unit(i);
+        const Eigen::Vector2d column = numeric(predict_observation(pose, mount, p_landmark + d).z,
+                                               predict_observation(pose, mount, p_landmark - d).z);
         EXPECT_LT((predicted.J_wrt_landmark.col(i) - column).norm(), tolerance);
       }
     }
@@ -111,23 +112,25 @@ TEST(Innovation, WrapsTheBearing) {
 TEST(InvertObservation, UndoesThePredictionAndHasItsJacobians) {
   for (const Pose2& pose : poses) {
     for (const Pose2& mount : mounts) {
-      const PredictedObservation predicted = predict_observation(pose, mount, landmark);
+      const PredictedObservation predicted = predict_observation(pose, mount, p_landmark);
       const auto inverted = [&](const Pose2& from, double dr, double db) {
         const Observation z{.landmark = 0, .range = predicted.z.x() + dr, .bearing = predicted.z.y() + db};
         return invert_observation(from, mount, z);
       };
       const InverseObservation inverse = inverted(pose, 0, 0);
-      EXPECT_LT((inverse.p_world_landmark - landmark).norm(), 1e-14);
+      EXPECT_LT((inverse.p_world_landmark - p_landmark).norm(), 1e-14);
       for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector2d column = (inverted(shifted(pose, i, step), 0, 0).p_world_landmark -
-                                        inverted(shifted(pose, i, -step), 0, 0).p_world_landmark) /
-                                       (2 * step);
+        const Eigen::Vector2d column = (inverted(shifted(pose, i, difference_step), 0, 0).p_world_landmark -
+                                        inverted(shifted(pose, i, -difference_step), 0, 0).p_world_landmark) /
+                                       (2 * difference_step);
         EXPECT_LT((inverse.J_wrt_pose.col(i) - column).norm(), tolerance);
       }
-      const Eigen::Vector2d wrt_range =
-          (inverted(pose, step, 0).p_world_landmark - inverted(pose, -step, 0).p_world_landmark) / (2 * step);
-      const Eigen::Vector2d wrt_bearing =
-          (inverted(pose, 0, step).p_world_landmark - inverted(pose, 0, -step).p_world_landmark) / (2 * step);
+      const Eigen::Vector2d wrt_range = (inverted(pose, difference_step, 0).p_world_landmark -
+                                         inverted(pose, -difference_step, 0).p_world_landmark) /
+                                        (2 * difference_step);
+      const Eigen::Vector2d wrt_bearing = (inverted(pose, 0, difference_step).p_world_landmark -
+                                           inverted(pose, 0, -difference_step).p_world_landmark) /
+                                          (2 * difference_step);
       EXPECT_LT((inverse.J_wrt_observation.col(0) - wrt_range).norm(), tolerance);
       EXPECT_LT((inverse.J_wrt_observation.col(1) - wrt_bearing).norm(), tolerance);
     }

@@ -1,4 +1,4 @@
-// An observation's factor: what it adds to the information form, what it takes out again, and where it is
+// An observation's factor: what it adds to the information form, how it is taken out again, and where it is
 // linearised.
 #include "seif/observation_factor.hpp"
 
@@ -120,7 +120,7 @@ TEST_P(ObservationFactors, TheResidualIsTheInnovationThatALinearSensorWouldHave)
 
 /// u along heading + bearing, n across: v = (z_r - u.(m - s), -n.(m - s) / z_r), with s the sensor's place.
 TEST_P(ObservationFactors, AtTheMeasurementFollowTheFormulasOfTheLineOfSight) {
-  state.move_robot({1.0, -2.0, 0.8});  // lost: the innovations are large
+  state.move_robot({1.0, -2.0, 0.8});  // the pose is wrong, so the innovations are large
   const Pose2 x = state.pose();
   const Pose2 T_world_sensor = x * T_robot_sensor;
   const Eigen::Vector2d s(T_world_sensor.x, T_world_sensor.y);

@@ -1,4 +1,4 @@
-// A kinematic drive along any path, among landmarks that stand anywhere.
+// A kinematic drive along any path, among landmarks at any places.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace seif::test {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Half a metre at a time, from corner to corner, with sight of 4 m. Now and then a landmark is overlooked.
+/// Drives half a metre per step, from corner to corner, and sees up to 4 m. Sometimes a landmark is missed.
 class PathDrive {
  public:
   PathDrive(Points landmarks, Points corners, unsigned seed)
@@ -29,7 +29,7 @@ class PathDrive {
 
   bool at_end() const { return next_ >= corners_.size(); }
 
-  /// What odometry() and scan() then tell. Not at the end.
+  /// Drives one step: odometry() and scan() then return it. Not to be called at the end.
   void advance() {
     const Pose2 before = truth_;
     const Eigen::Vector2d to_go = corners_[next_] - Eigen::Vector2d(truth_.x, truth_.y);
@@ -81,7 +81,7 @@ class PathDrive {
   std::bernoulli_distribution overlooked_{0.15};
 };
 
-/// On both sides of a path, about two metres apart, none nearer to another than a metre.
+/// Landmarks on both sides of a path, about two metres apart, and at least one metre from each other.
 inline Points landmarks_along(const Points& corners, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> jitter(-0.3, 0.3);

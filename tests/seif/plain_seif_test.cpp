@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "allocation_counter.hpp"

@@ -1,10 +1,13 @@
-// What must hold of every filter: where the world's frame lies, and where the heading wraps, changes nothing.
+// Properties of every filter: the results do not depend on the choice of the world frame, nor on where the
+// heading wraps.
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -19,14 +22,14 @@ using test::RingDrive;
 
 constexpr double property_rounding = 1e-10;  // relative to metres and radians, after some hundred updates
 
-/// Turns vectors as T_to_from does: of the state [x y theta] (3 x 3).
+/// The matrix (3 x 3) that turns vectors [x y theta] as T_to_from does.
 Eigen::Matrix3d rotation_of_pose(const Pose2& T_to_from) {
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
   G.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(T_to_from.theta).toRotationMatrix();
   return G;
 }
 
-/// The same robot, told of another world frame.
+/// The same robot, described in another world frame.
 EstimatorSetup in_frame(EstimatorSetup setup, const Pose2& T_to_from) {
   const Eigen::Matrix3d G = rotation_of_pose(T_to_from);
   setup.start.mean = T_to_from * setup.start.mean;
@@ -121,7 +124,7 @@ TEST_P(EveryFilter, TheHeadingWrapsAtPiWithoutATrace) {
       if (std::abs(heading - before) > std::numbers::pi) wraps->push_back(k);
     }
   }
-  EXPECT_GE(wraps_here.size(), 2U);  // two rounds; the one that begins at pi itself crosses there too
+  EXPECT_GE(wraps_here.size(), 2U);  // two rounds; the filter that begins at pi itself wraps there, too
   EXPECT_GE(wraps_there.size(), 2U);
   EXPECT_NE(wraps_here, wraps_there);
 }

@@ -1,6 +1,6 @@
-// The motion update as it is printed, in the report and in the book: where that is right, it equals ours;
-// where it is not, by how much. U, the report's motion noise, has full rank here unless a test says
-// otherwise.
+// The motion update as printed in the report and in the book. Where a printed equation is right, it gives our
+// result; where it is wrong, the test shows by how much. U, the report's motion noise, has full rank here
+// unless a test says otherwise.
 
 #include <gtest/gtest.h>
 
@@ -23,17 +23,17 @@ using oracle::RandomDrive;
 using test::relative;
 
 constexpr double formula_rounding = 1e-12;  // relative
-constexpr double inverses = 1e-8;           // relative, where a conditioned matrix is inverted on the way
-constexpr double visible = 1e-3;            // relative; what is off by more is no rounding
+constexpr double inverses = 1e-8;           // relative, where a matrix is inverted on the way
+constexpr double visible = 1e-3;            // relative; a larger difference is not rounding
 
-/// Full, and well enough conditioned that its inverse costs no digits.
+/// A covariance of full rank, so well conditioned that its inverse loses no digits.
 Eigen::Matrix3d any_covariance(RandomDrive& random) {
   const auto any = [&] { return random.uniform(-0.03, 0.03); };
   const Eigen::Matrix3d L = Eigen::Matrix3d::NullaryExpr(any);
   return L * L.transpose() + 4e-4 * Eigen::Matrix3d::Identity();
 }
 
-/// A turn on the spot: the one motion of the plane for which A = 0.
+/// A turn on the spot: the only planar motion with A = 0.
 Odometry turn_on_the_spot(RandomDrive& random) {
   Odometry u;
   u.T_previous_current.theta = random.uniform(0.1, 0.4);
@@ -59,7 +59,7 @@ Eigen::VectorXd mu_hat(const DenseBelief& belief, const Odometry& u) {
   return added;
 }
 
-/// U in the world frame, where (26) adds it (3 x 3).
+/// U in the world frame, in which (26) adds it (3 x 3).
 Eigen::Matrix3d U(const DenseBelief& belief, const Odometry& u) {
   const Eigen::Matrix3d L = predict_pose(oracle::pose_of(belief), u).noise_factor;
   return L * L.transpose();
@@ -94,7 +94,7 @@ class Report : public testing::TestWithParam<unsigned> {
  protected:
   void SetUp() override {
     test::drive(state, random, 25);
-    state.move_robot({0.02, -0.01, 0.005});  // or r_x = 0, and some wrong equations for b would do
+    state.move_robot({0.02, -0.01, 0.005});  // otherwise r_x = 0, and some wrong equations for b would pass
   }
 
   RandomDrive random{GetParam()};
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Report, testing::Values(1U, 2U, 3U, 4U, 5U));
 TEST_P(Report, Equation35HasTheSignOfItsLastTermWrong) {
   const DenseBelief before = oracle::dense(state);
   Eigen::VectorXd added = Eigen::VectorXd::Zero(before.mu.size());
-  added.head<3>() << 0.4, -0.3, 0.2;  // linear mechanics: may go anywhere with A = 0
+  added.head<3>() << 0.4, -0.3, 0.2;  // linear motion: any displacement has A = 0
   const Eigen::Matrix3d noise = any_covariance(random);
   const DenseBelief expected = by_covariance(before, added, noise);
   const DenseBelief mended = lemma_2(before, added, noise, LastTerm::mended);
@@ -148,7 +148,7 @@ TEST_P(Report, Lemma2ChangesTheBlocksOfRobotAndActiveLandmarksAlone) {
 }
 
 TEST_P(Report, Equation36HasTheSignOfTheInformationVectorWrong) {
-  ASSERT_TRUE(solve_mean(state));  // r = 0: both sides speak of the same mean
+  ASSERT_TRUE(solve_mean(state));  // r = 0: both sides use the same mean
   const DenseBelief before = oracle::dense(state);
   const Odometry u = random.odometry();
   const PredictedPose predicted = predict_pose(state.pose(), u);
@@ -166,7 +166,7 @@ TEST_P(Report, Equation36HasTheSignOfTheInformationVectorWrong) {
 }
 
 TEST_P(Report, Equation36WithItsSignMendedLeavesTheResidualWhereTheRobotHasNone) {
-  ASSERT_TRUE(coordinate_descent(state, 0, random.random));  // which ends with r_x = 0
+  ASSERT_TRUE(coordinate_descent(state, 0, random.random));  // afterwards r_x = 0
   const Eigen::VectorXd r = full_r(state);
   ASSERT_LT(r.head<3>().norm(), 1e-9);
   ASSERT_GT(r.norm(), 1e-3);
@@ -178,12 +178,12 @@ TEST_P(Report, Lemma3InvertsAMatrixThatIsSingularForEveryMotionOfThePlane) {
   for (int k = 0; k < 20; ++k) {
     const Odometry u = random.odometry();
     const Eigen::Matrix3d A = predict_pose(state.pose(), u).J_wrt_pose - Eigen::Matrix3d::Identity();
-    EXPECT_EQ(A.determinant(), 0.0);  // S_x' A S_x: zero but for its last column
+    EXPECT_EQ(A.determinant(), 0.0);  // S_x' A S_x is zero except for its last column
     EXPECT_EQ(A.fullPivLu().rank(), 1);
     EXPECT_FALSE(((Eigen::Matrix3d::Identity() + A.inverse()).inverse()).allFinite());  // as (36) has it
-    EXPECT_EQ((A * A).norm(), 0.0);  // so that Psi = (I + A)^-1 = I - A exists all the same
+    EXPECT_EQ((A * A).norm(), 0.0);  // so Psi = (I + A)^-1 = I - A still exists
   }
-  // Of a regular A the lemma is right.
+  // For a regular A the lemma is right.
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d A = 10.0 * any_covariance(random) + I;
   EXPECT_LT(relative(I - (I + A.inverse()).inverse(), (I + A).inverse()), formula_rounding);

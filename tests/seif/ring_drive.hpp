@@ -1,4 +1,4 @@
-// A kinematic drive for tests and benchmarks: landmarks at constant density, whatever their number.
+// A kinematic drive for tests and benchmarks; the density of landmarks is the same for any number of them.
 #pragma once
 
 #include <cmath>
@@ -12,13 +12,13 @@ namespace seif::test {
 const inline StageDone ignore = [](Stage) {};
 
 #ifdef __SANITIZE_ADDRESS__
-inline constexpr bool under_sanitizer = true;  // tens of times slower: long drives are cut short
+inline constexpr bool under_sanitizer = true;  // tens of times slower, so long drives are shortened
 #else
 inline constexpr bool under_sanitizer = false;
 #endif
 
-/// A robot that drives round and round a ring of landmarks, 1.5 m apart on either side, and sees those within
-/// 4 m.
+/// A robot that drives around a ring again and again, with landmarks 1.5 m apart on both sides. It sees those
+/// within 4 m.
 class RingDrive {
  public:
   RingDrive(int landmarks, unsigned seed) : landmarks_(landmarks), random_(seed) {
@@ -33,7 +33,7 @@ class RingDrive {
             .random = std::mt19937_64(5)};
   }
 
-  /// Drives half a metre and looks around: what odometry() and scan() then tell.
+  /// Drives half a metre and takes a scan: odometry() and scan() then return these.
   void advance() {
     const Pose2 before = truth();
     along_ += 0.5 / radius_;

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <random>
 
@@ -17,7 +18,7 @@ namespace {
 
 using test::RingDrive;
 
-/// One motion and one measurement update, with the map full: the robot has driven a whole round before.
+/// One motion update and one measurement update with a full map: the robot has driven a whole round before.
 template <class Filter, class... Options>
 void update(benchmark::State& state, const Options&... options) {
   RingDrive drive(static_cast<int>(state.range(0)), 1);
@@ -80,7 +81,7 @@ BENCHMARK(seif_by_groups_update)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// One step of an update of seif, all else as in update().
+/// One step of seif's update; everything else is as in update().
 void seif_step(benchmark::State& state, Stage step) {
   using Clock = std::chrono::steady_clock;
   RingDrive drive(static_cast<int>(state.range(0)), 1);
@@ -132,7 +133,7 @@ BENCHMARK(seif_mean_recovery)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// W of 16 columns, as eight observations give.
+/// A matrix W with 16 columns, as eight observations give it.
 Eigen::MatrixXd thin_matrix(Eigen::Index rows) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);

@@ -1,9 +1,10 @@
-// Each step of the SEIF against the dense oracle, on states that a random drive leaves behind.
+// Each step of the SEIF against the dense oracle, on states after a random drive.
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "dense_oracle.hpp"
@@ -192,11 +193,11 @@ TEST_P(SeifSteps, CoordinateDescentReachesTheExactMeanIfRepeated) {
   ASSERT_GT(error, 1e-4);
   const auto energy = [&] { return full_r(state).dot(oracle::solve(belief.H, full_r(state))); };
   double last = energy();
-  for (int sweep = 0; sweep < 2'000; ++sweep) {  // relaxation is slow; only the way is tested here
+  for (int sweep = 0; sweep < 2'000; ++sweep) {  // relaxation is slow; only its path is tested here
     ASSERT_TRUE(coordinate_descent(state, 20, random.random));
     if (sweep % 100 != 0) continue;
     const double now = energy();
-    ASSERT_LE(now, last * (1 + 1e-9));  // each step goes down, Lemma 4
+    ASSERT_LE(now, last * (1 + 1e-9));  // each step lowers the error, Lemma 4
     last = now;
   }
   EXPECT_LT((full_mu(state) - belief.mu).norm(), 0.1 * error);

@@ -1,7 +1,9 @@
-// Our filter as a whole: what an update costs, in a map of any size, and options at their limits.
+// Our filter as a whole: the cost of an update in a map of any size, and options at their limits.
 #include "seif/seif.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cstdint>
 
 #include "allocation_counter.hpp"
 #include "ring_drive.hpp"
@@ -11,7 +13,7 @@ namespace {
 
 using test::RingDrive;
 
-/// Mean number of blocks touched by an update at the end of one round, of some drives.
+/// Mean number of blocks touched by an update at the end of one round, over several drives.
 double blocks_touched(int landmarks, MeanRecovery mean) {
   const int drives = 4;
   const int measured = 400;
@@ -27,8 +29,8 @@ double blocks_touched(int landmarks, MeanRecovery mean) {
   return static_cast<double>(blocks) / (drives * measured);
 }
 
-// Not equal: the number of levels, of the tree or of groups, grows with log N. From 1,000 to 20,000 landmarks
-// that is some levels more.
+// Not equal: the number of levels, of the tree or of groups, grows with log N, so there are a few more levels
+// at 20,000 landmarks than at 1,000.
 TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
   if (test::under_sanitizer) GTEST_SKIP() << "the counts are those of other builds, and take minutes here";
   for (const MeanRecovery mean : {MeanRecovery::tree, MeanRecovery::multilevel}) {
@@ -36,13 +38,13 @@ TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
   }
 }
 
-// Whichever mean.
+// Holds for every mean recovery.
 TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
   for (const MeanRecovery mean : {MeanRecovery::tree, MeanRecovery::multilevel}) {
     RingDrive drive(300, 4);
     Seif filter(drive.setup(), {.mean_recovery = mean});
-    // Some rounds, until every message of the tree has once been as large as it gets.
+    // Several rounds, until every message of the tree has once had its largest size.
     for (int k = 0; k < 6 * drive.steps_for_a_round(); ++k) drive.step(filter);
     for (int k = 0; k < drive.steps_for_a_round(); ++k) {
       drive.advance();

@@ -1,4 +1,5 @@
-// What tells whether a sparsification makes the filter overconfident, and what a filter says of itself.
+// Quantities that show whether a sparsification makes the filter overconfident, and the filter's own
+// diagnostics.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ double pose_uncertainty(const Eigen::MatrixXd& H) {
   return log_determinant(H.ldlt().solve(Eigen::MatrixXd::Identity(H.rows(), 3)).topRows<3>());
 }
 
-/// Before and after the three landmarks seen longest ago were dropped from a driven state.
+/// The state before and after the three landmarks seen longest ago were dropped.
 struct Sparsified {
   Sparsified(unsigned seed, SparsificationRule rule) {
     InformationState state(start);
@@ -150,7 +151,7 @@ TEST(MeanResidual, IsTheDenseSumOverBlocksAndBoundsTheErrorOfTheMeanFromBelow) {
     const Eigen::MatrixXd Omega = oracle::symmetric(full_Omega(state));
     const Eigen::VectorXd r = full_r(state);
     const double sum = dense_sum(Omega, r);
-    int most_links = state.active_count();  // of a block: the robot's to begin with
+    int most_links = state.active_count();  // of one block; the robot's at first
     for (int i = 0; i < state.landmark_count(); ++i) {
       const int row = InformationState::row_of(i);
       int links = state.position(i) >= 0 ? 1 : 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "sensors/random_stream.hpp"
 
@@ -56,7 +57,7 @@ TEST(LandmarkSensor, SeesUpToItsRange) {
 
 TEST(LandmarkSensor, SeesWithinItsFieldOfView) {
   LandmarkSensorOptions options = options_with_false_ids();
-  EXPECT_TRUE(sees(options, {-5.0, 0.0}));  // all around: straight behind as well
+  EXPECT_TRUE(sees(options, {-5.0, 0.0}));  // a full field of view: straight behind, too
   options.fov = 2.0;
   for (const double side : {-1.0, 1.0}) {
     EXPECT_TRUE(sees(options, polar(5.0, side * 0.999999)));
@@ -80,7 +81,7 @@ TEST(LandmarkSensor, MeasuresFromWhereItIsMounted) {
   ASSERT_EQ(seen.scan.observations.size(), 1U);
   EXPECT_NEAR(p_world_sensor.x(), 2.1, 1e-14);
   EXPECT_NEAR(p_world_sensor.y(), 1.3, 1e-14);
-  // South-west of a sensor that faces west is to its left. The noise of 1e-9 is allowed eight deviations.
+  // South-west is to the left of a sensor that faces west. The noise of 1e-9 is allowed eight deviations.
   EXPECT_NEAR(seen.scan.observations[0].range, std::sqrt(18.0), 8e-9);
   EXPECT_NEAR(seen.scan.observations[0].bearing, pi / 4, 8e-9);
 
@@ -99,8 +100,8 @@ TEST(LandmarkSensor, DoesNotSeeWhatIsHidden) {
   EXPECT_EQ(seen.scan.observations[1].landmark, 3);
 }
 
-// The mean of n samples has sd sigma / sqrt(n), their sd a relative sd of 1 / sqrt(2 n), their correlation
-// one of 1 / sqrt(n): five of each are allowed.
+// The mean of n samples has the sd sigma / sqrt(n), their sample sd has the relative sd 1 / sqrt(2 n), and
+// their correlation has the sd 1 / sqrt(n). Five sd of each are allowed.
 TEST(LandmarkSensor, NoiseHasTheStatedMeanAndDeviation) {
   LandmarkSensorOptions options = options_with_false_ids();
   options.range_sd = 0.05;
@@ -147,7 +148,7 @@ TEST(LandmarkSensor, HandsOnTheCovarianceAtTheMeasuredRange) {
   }
 }
 
-// A binomial count of n has sd sqrt(n p (1 - p)): five are allowed.
+// A binomial count of n trials has the sd sqrt(n p (1 - p)); five of them are allowed.
 TEST(LandmarkSensor, MissesAtItsRate) {
   LandmarkSensorOptions options = options_with_false_ids();
   options.miss_probability = 0.2;
@@ -167,9 +168,10 @@ TEST(LandmarkSensor, MissesAtItsRate) {
   EXPECT_NEAR(reported[1], 0.8 * scans, bound);
 }
 
-// Counts: Poisson, mean and variance lambda, with sd sqrt(lambda / n) and about lambda sqrt((2 + 1/lambda) /
-// n). Places: over an area (range / max)^2 and bearing are uniform: mean 1/2 and 0 with sd 1/sqrt(12), and
-// the square of the first has mean 1/3 with sd sqrt(4/45). Five of each are allowed.
+// Counts are Poisson distributed: mean and variance lambda, with sd sqrt(lambda / n) and about lambda sqrt((2 +
+// 1/lambda) / n). Positions are uniform over the area, so (range / max)^2 and the bearing are uniform: means
+// 1/2 and 0 with sd 1/sqrt(12). The square of the first has the mean 1/3 and the sd sqrt(4/45). Five sd of each
+// are allowed.
 TEST(LandmarkSensor, FalseDetectionsArePoissonAndUniformOverTheField) {
   LandmarkSensorOptions options = options_with_false_ids();
   options.false_detections = 1.5;
@@ -274,7 +276,8 @@ TEST(LandmarkSensor, NeverMeasuresARangeBelowZero) {
   }
 }
 
-// Candidates that are out of range, out of view or hidden draw nothing; a missed landmark draws all the same.
+// Candidates that are out of range, out of view or hidden draw no random numbers; a missed landmark draws as
+// many as a detected one.
 TEST(LandmarkSensor, DrawsForVisibleLandmarksAlone) {
   LandmarkSensorOptions options = options_with_false_ids();
   options.fov = pi;

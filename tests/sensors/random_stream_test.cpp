@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <random>
 
 namespace sensors {
 namespace {
@@ -18,7 +20,7 @@ TEST(RandomStream, DiffersForAnotherSeedOrName) {
   EXPECT_NE(random_stream(7, ""), random_stream(7 + (std::uint64_t{1} << 32U), ""));
 }
 
-// Holds the mapping itself: a run of an old seed must stay the same run. The hash of "a" is FNV-1a's
+// Fixes the mapping itself, so that a run with an old seed stays the same run. The hash of "a" is FNV-1a's
 // published vector 0xaf63dc4c8601ec8c, so the words of the seed sequence can be written out.
 TEST(RandomStream, SeedsTheEngineWithSeedAndHashOfTheName) {
   std::seed_seq words{5U, 1U, 0x8601ec8cU, 0xaf63dc4cU};

@@ -27,14 +27,15 @@ constexpr std::array<WheelDistances, 11> motions = {{{0.3, 0.3},
                                                      {-1.0, 2.0}}};
 
 TEST(WheelArc, DrivesCirclesOfTheRightRadius) {
-  // Half a turn to the left with the axle's middle at radius 1: it ends across the circle, facing back.
+  // Half a turn to the left, with the axle's middle at radius 1: the robot ends on the opposite side of the
+  // circle, facing back.
   const WheelArc arc = wheel_arc({pi * (1.0 - 0.5 * track), pi * (1.0 + 0.5 * track)}, track);
   EXPECT_NEAR(arc.T_start_end.x, 0.0, 1e-14);
   EXPECT_NEAR(arc.T_start_end.y, 2.0, 1e-14);
   EXPECT_NEAR(std::abs(arc.T_start_end.theta), pi, 1e-14);
 }
 
-// At constant curvature the way can be cut anywhere: the parts compose to the whole.
+// At constant curvature the path can be cut anywhere: the parts compose to the whole.
 TEST(WheelArc, IsExactForConstantCurvature) {
   for (const WheelDistances& whole : motions) {
     seif::Pose2 T_start_now;
@@ -51,8 +52,8 @@ TEST(WheelArc, IsExactForConstantCurvature) {
 }
 
 TEST(WheelArc, JacobianMatchesCentralDifferences) {
-  // The central difference errs by step^2 of the third derivative and by rounding over step: both about
-  // 1e-10.
+  // The errors of the central difference are step^2 times the third derivative, and rounding divided by step:
+  // both about 1e-10.
   constexpr double step = 1e-5;
   constexpr double tolerance = 1e-8;
   for (const WheelDistances& at : motions) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -41,7 +42,7 @@ TEST(WheelEncoders, WithoutErrorsReadTheTrueMotion) {
   EXPECT_NEAR(T_start_now.theta, T_start_end.theta, 1e-12);
 }
 
-// Each reading rolls a third of a tick: most read nothing, none of the way is lost.
+// Each reading rolls a third of a tick: most readings are zero, but no part of the way is lost.
 TEST(WheelEncoders, CarryTheRemainderOfATick) {
   WheelEncoderOptions options;
   WheelEncoders sensor = encoders(options);
@@ -71,8 +72,8 @@ TEST(WheelEncoders, ReadWholeTicks) {
   }
 }
 
-// On the spot by theta the wheels roll -+ b theta / 2. Divided by the assumed track b / E_b that reads E_b
-// theta: the heading error of a turn is (E_b - 1) theta, and nothing else.
+// When the robot turns by theta on the spot, the wheels roll -+ b theta / 2. Divided by the assumed track b /
+// E_b, this is read as E_b theta: the only error is (E_b - 1) theta in the heading.
 TEST(WheelEncoders, TrackRatioScalesEveryTurn) {
   WheelEncoderOptions options = exact();
   options.track_ratio = 1.02;
@@ -107,8 +108,8 @@ TEST(WheelEncoders, DiameterRatioBendsAStraightLine) {
   EXPECT_NEAR(read.y, radius * (1.0 - std::cos(turn)), 1e-12);
 }
 
-// The mean diameter stays what it is: Borenstein's E_d changes the ratio alone, a straight line keeps its
-// length to second order, (E_d + 1/E_d - 2) / 4 = 2.5e-5 for one per cent.
+// The mean diameter is unchanged: Borenstein's E_d changes only the ratio, so a straight line keeps its length
+// to second order, (E_d + 1/E_d - 2) / 4 = 2.5e-5 for one per cent.
 TEST(WheelEncoders, DiameterRatioKeepsTheLengthOfTheWay) {
   WheelEncoderOptions options = exact();
   options.diameter_ratio = 1.01;
@@ -120,10 +121,10 @@ TEST(WheelEncoders, DiameterRatioKeepsTheLengthOfTheWay) {
 struct Moments {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d reported = Eigen::Matrix3d::Zero();  // mean of what the readings say
+  Eigen::Matrix3d reported = Eigen::Matrix3d::Zero();  // mean of the reported covariances
 };
 
-/// Of increments of one motion read again and again.
+/// The moments of the increments of one motion that is read many times.
 Moments moments(const WheelEncoderOptions& options, double left, double right, int samples) {
   WheelEncoders sensor = encoders(options);
   Moments m;
@@ -142,9 +143,9 @@ Moments moments(const WheelEncoderOptions& options, double left, double right, i
   return m;
 }
 
-// A sample variance of n normal values has a relative standard deviation of sqrt(2/n) = 1 % for n = 20,000; a
-// covariance at most as much of sqrt(var_a var_b). Five of them are allowed. The arc bends the noise by less:
-// its second-order share is (sd / track)^2, under 1e-4 here.
+// A sample variance of n normal values has a relative standard deviation of sqrt(2/n) = 1 % for n = 20,000. A
+// covariance has at most this fraction of sqrt(var_a var_b). Five of these are allowed. The bend of the noise
+// by the arc is less: its second-order share is (sd / track)^2, below 1e-4 here.
 TEST(WheelEncoders, ReportTheCovarianceThatTheirIncrementsHave) {
   WheelEncoderOptions options = exact();
   options.distance_sd = 0.005;
@@ -163,9 +164,9 @@ TEST(WheelEncoders, ReportTheCovarianceThatTheirIncrementsHave) {
   EXPECT_NEAR(m.mean.z(), T.theta, 5.0 * sd_of_mean.z());
 }
 
-// The random error of a wheel is a walk along its way, sd^2 L after the length L, ticks or not: so the
-// heading, (right - left) / b, is off by 2 sd^2 L / b^2. 400 runs know a variance to sqrt(2/400) = 7 %; four
-// of them are allowed.
+// The random error of a wheel is a random walk: variance sd^2 L after the length L, with or without ticks. So
+// the heading, (right - left) / b, has the variance 2 sd^2 L / b^2. A variance from 400 runs has a relative
+// standard deviation of sqrt(2/400) = 7 %; four of them are allowed.
 TEST(WheelEncoders, RandomErrorGathersWithTheDistance) {
   WheelEncoderOptions options;
   options.distance_sd = 0.01;
@@ -196,7 +197,7 @@ TEST(WheelEncoders, CovarianceHasRankTwoAndCountsTheTick) {
   lu.setThreshold(1e-12);
   EXPECT_EQ(lu.rank(), 2);
 
-  // At rest the tick alone is left: theta = (right - left) / b, so var = 2 (tick^2 / 12) / b^2.
+  // At rest only the tick is left: theta = (right - left) / b, so var = 2 (tick^2 / 12) / b^2.
   const double tick_length = options.wheel_radius * 2.0 * pi / options.ticks_per_revolution;
   const double at_rest = sensor.read(2.0, 2.0, 3.0).covariance(2, 2);
   EXPECT_NEAR(at_rest, tick_length * tick_length / 6.0 / (options.track * options.track), 1e-18);

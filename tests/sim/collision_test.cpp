@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "driver.hpp"
@@ -8,13 +9,13 @@
 namespace sim {
 namespace {
 
-// The chassis ends where the wheels do: a wheel radius ahead of the axle. Bullet keeps bodies apart, or lets
-// them overlap, by less than this.
+// The chassis ends where the wheels end: one wheel radius ahead of the axle. The gap or overlap that Bullet
+// leaves between bodies is smaller than this tolerance.
 constexpr double contact_tolerance = 0.01;  // [m]
 
 const Eigen::Vector2d far_away(2000.0, -1500.0);
 
-/// Where the robot is after ten seconds of driving on.
+/// The robot's state after driving on for ten seconds.
 RobotState after_driving(const worlds::World& world, double v) {
   const auto simulator = make_simulator(world);
   drive_for(*simulator, world, 10.0, {v, 0.0});
@@ -44,7 +45,7 @@ TEST(Collision, AWallFarFromTheOriginStopsTheRobot) {
   EXPECT_NEAR(state.v, 0.0, 1e-3);
 }
 
-// Pushing on, the wheels stall where the motors are weak and spin where they are strong; the wall holds.
+// When the robot pushes on, weak motors stall and strong ones spin the wheels; the wall holds in both cases.
 TEST(Collision, AWallHoldsWhatPushesAgainstIt) {
   for (const double torque : {0.5, 2.0, 20.0}) {
     for (const double v : {1.0, -1.0}) {
@@ -53,14 +54,14 @@ TEST(Collision, AWallHoldsWhatPushesAgainstIt) {
       world.boxes.push_back({{{2.0, 0.0}, 0.0}, {0.2, 6.0}, 0.3});
       world.boxes.push_back({{{-2.0, 0.0}, 0.0}, {0.2, 6.0}, 0.3});
       const RobotState state = after_driving(world, v);
-      const double reach = v > 0.0 ? world.robot.wheel_radius : 0.18 + 0.04;  // back: behind the caster
+      const double reach = v > 0.0 ? world.robot.wheel_radius : 0.18 + 0.04;  // the rear: behind the caster
       EXPECT_NEAR(std::abs(state.position.x()), 1.9 - reach, contact_tolerance) << torque << ' ' << v;
       EXPECT_GE(wheel_travel(state, world.robot) / v, 1.9 - reach - contact_tolerance);
     }
   }
 }
 
-// Met at a shallow angle the wall pushes the front corner aside: the robot goes on along the wall.
+// A wall that is hit at a shallow angle pushes the front corner aside: the robot continues along the wall.
 TEST(Collision, AShallowWallTurnsTheRobotAlongItself) {
   worlds::World world;
   world.walls.push_back({{{-1.0, 0.8}, {9.0, -1.0}}, 0.1, 1.0});
@@ -70,7 +71,8 @@ TEST(Collision, AShallowWallTurnsTheRobotAlongItself) {
   EXPECT_LT(state.position.y(), -0.2);
 }
 
-// Where it drives wildly among solids it never gets into one: a disk inside the chassis stays clear of all.
+// When the robot drives wildly among solids, it never enters one: a disk inside the chassis stays clear of all
+// of them.
 TEST(Collision, NothingIsPassedThroughInACrowdedRoom) {
   worlds::World world;
   world.robot.max_speed = 2.0;
@@ -98,7 +100,8 @@ TEST(Collision, NothingIsPassedThroughInACrowdedRoom) {
   EXPECT_GT(travelled, 10.0);
 }
 
-// Solids come and go around the robot as it drives: the last of a long row stops it as the first would.
+// Solids are streamed in and out around the robot as it drives: the last of a long row stops it as the first
+// would.
 TEST(Collision, SolidsAreThereHoweverFarTheRobotHasDriven) {
   worlds::World world;
   for (int i = 0; i < 40; ++i) {

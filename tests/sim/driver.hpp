@@ -1,4 +1,4 @@
-// What the tests of motion share: driving a simulator and reading it like a robot with perfect encoders.
+// Helpers of the motion tests: they drive a simulator, and read it like a robot with perfect encoders.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline void drive_for(Simulator& simulator, const worlds::World& world, double s
   }
 }
 
-/// A state to the last bit.
+/// The bits of a state, for exact comparison.
 inline std::array<std::uint64_t, 7> bits(const RobotState& s) {
   return {std::bit_cast<std::uint64_t>(s.position.x()), std::bit_cast<std::uint64_t>(s.position.y()),
           std::bit_cast<std::uint64_t>(s.heading),      std::bit_cast<std::uint64_t>(s.left_wheel),
@@ -26,12 +26,12 @@ inline std::array<std::uint64_t, 7> bits(const RobotState& s) {
           std::bit_cast<std::uint64_t>(s.omega)};
 }
 
-/// What the wheels say of the way of the axle's middle. [m]
+/// The distance of the axle's middle according to the wheels. [m]
 inline double wheel_travel(const RobotState& state, const worlds::Robot& robot) {
   return 0.5 * (state.left_wheel + state.right_wheel) * robot.wheel_radius;
 }
 
-/// What the wheels say of the turn. [rad]
+/// The turn according to the wheels. [rad]
 inline double wheel_turn(const RobotState& state, const worlds::Robot& robot) {
   return (state.right_wheel - state.left_wheel) * robot.wheel_radius / robot.track;
 }

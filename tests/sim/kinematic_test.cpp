@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -21,7 +22,7 @@ worlds::World kinematic_world() {
   return world;
 }
 
-/// Accelerations so high that the first step is at the commanded speeds.
+/// Accelerations so high that the first step already has the commanded speeds.
 worlds::World nimble_world() {
   worlds::World world = kinematic_world();
   world.robot.max_acceleration = 1e4;
@@ -29,7 +30,7 @@ worlds::World nimble_world() {
   return world;
 }
 
-/// Changes without end and now and then asks for more than the robot can do.
+/// Changes all the time, and sometimes asks for more than the robot can do.
 Command wild_command(int step) {
   return {1.5 * std::sin(0.013 * step), step % 500 < 100 ? 0.0 : 2.5 * std::sin(0.007 * step + 1.0)};
 }
@@ -60,7 +61,7 @@ TEST(Kinematic, DrivesAStraightLine) {
   EXPECT_NEAR(state.right_wheel, -8.0 / world.robot.wheel_radius, 1e-11);
 }
 
-// From rest at the origin: (R sin theta, R (1 - cos theta)) with R = v / omega, round and round.
+// From rest at the origin: (R sin theta, R (1 - cos theta)) with R = v / omega, for several rounds.
 TEST(Kinematic, DrivesACircle) {
   const worlds::World world = nimble_world();
   for (const double omega : {0.5, -0.5, 1.5, 1e-9}) {
@@ -80,8 +81,8 @@ TEST(Kinematic, DrivesACircle) {
   }
 }
 
-// What the wheels rolled in a step, wheel by wheel, is the step's arc: each wheel goes round the same centre,
-// at its own radius. Checked with the places of the wheels before and after.
+// The distances that the wheels rolled in a step agree with the arc of the step: both wheels move around the
+// same centre, each at its own radius. Checked with the positions of the wheels before and after.
 TEST(Kinematic, TheWheelsRollWhatTheRobotDrives) {
   const worlds::World world = kinematic_world();
   const auto simulator = make_simulator(world);
@@ -134,8 +135,8 @@ TEST(Kinematic, KeepsAndReachesItsLimitsOfSpeedAndAcceleration) {
   EXPECT_NEAR(hardest_turn, robot.max_turn_acceleration, 1e-12);
 }
 
-// On good ground and with strong motors the two engines drive about the same: Bullet's robot lags by what its
-// contacts give.
+// On good ground and with strong motors the two engines drive almost the same way: Bullet's robot lags a
+// little, because its contacts are soft.
 TEST(Kinematic, DrivesWhatBulletDrivesWhereNothingSlips) {
   worlds::World world = kinematic_world();
   const auto kinematic = make_simulator(world);
@@ -174,7 +175,7 @@ TEST(Kinematic, LandmarksHideNothingAndStopNothing) {
   EXPECT_NEAR(simulator->robot().position.x(), 3.0, 1e-12);
 }
 
-// Long and short ways, thick and thin landmarks: the other engine's answer.
+// Long and short paths, thick and thin landmarks: the answer is that of the other engine.
 TEST(Kinematic, APathIsClearWhereBulletSaysSo) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> place(-30.0, 30.0), size(0.02, 4.0);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -50,7 +51,7 @@ TEST(Motion, EncodersReadTheTurnOfAnArcWithin5e4) {
   EXPECT_NEAR(s.read_turn / s.true_turn, 1.0, 5e-4);
 }
 
-// The same relative accuracy for a robot that is small and light and one that is large and heavy.
+// A small, light robot and a large, heavy one reach the same relative accuracy.
 TEST(Motion, EncodersReadASpinOfRobotsOfOtherSizes) {
   worlds::World small;
   small.robot.mass = 1.0;
@@ -109,8 +110,8 @@ TEST(Motion, HoldsStillFromTheStartAndAfterDriving) {
   expect_holds_still(*simulator, world);
 }
 
-// The motors follow the limited command to within what the contacts give: a few mm/s, and accelerations over
-// a tenth of a second to a few per cent.
+// The motors follow the limited command up to the softness of the contacts: a few mm/s, and for accelerations
+// over a tenth of a second a few per cent.
 TEST(Motion, KeepsItsSpeedAndAccelerationLimits) {
   const worlds::World world;
   const auto simulator = make_simulator(world);
@@ -138,8 +139,8 @@ TEST(Motion, KeepsItsSpeedAndAccelerationLimits) {
   EXPECT_NEAR(hardest_turn, robot.max_turn_acceleration, 0.05 * robot.max_turn_acceleration);
 }
 
-// The same drive 100 km from the origin, where doubles lie 1.5e-11 m apart: what differs is rounding and what
-// 10 s of driving make of it.
+// The same drive 100 km from the origin, where neighbouring doubles are 1.5e-11 m apart. The only difference is
+// rounding, and its growth over 10 s of driving.
 TEST(Motion, IsAsAccurateFarFromTheOrigin) {
   worlds::World here, there;
   there.robot.start.position = {1e5, -1e5};

@@ -1,7 +1,8 @@
-// The robot is put somewhere else: all of it, and nothing else changes.
+// The robot is put at another place: all of it moves, and nothing else changes.
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 
@@ -54,7 +55,7 @@ TEST_P(Placing, ARobotAtRestStaysWhereItIsPut) {
   EXPECT_NEAR(after.left_wheel, before.left_wheel, 1e-3);
 }
 
-// What the wheels roll after it is what the robot moves, in its new direction.
+// After the placing, the robot moves in its new direction by what its wheels roll.
 TEST_P(Placing, ARobotThatDrivesGoesOn) {
   drive_for(*simulator_, world_, 3.0, {0.5, 0.0});
   simulator_->place({{0.0, 10.0}, -pi / 2});
@@ -84,7 +85,7 @@ TEST_P(Placing, NowhereThrows) {
   EXPECT_THROW(simulator_->place({{0.0, 0.0}, nan}), std::invalid_argument);
 }
 
-// Obstacles around the new place stand there, those around the old one do not hold the robot.
+// Obstacles around the new place are there; those around the old place do not stop the robot.
 TEST(PlacingInBullet, MeetsWhatStandsThere) {
   worlds::World world;
   world.boxes.push_back({{{11.0, 0.0}, 0.0}, {1.0, 4.0}, 1.0});

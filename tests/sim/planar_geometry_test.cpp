@@ -4,13 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 
 namespace sim {
 namespace {
 
-/// The shortest distance over points that are `steps` + 1 to the way; never below the true one.
+/// The shortest distance over `steps` + 1 points of the path; never below the true one.
 template <class PointDistance>
 double sampled(const Segment& way, int steps, const PointDistance& distance_of) {
   double nearest = distance_of(way.start);
@@ -47,7 +48,7 @@ TEST(PlanarGeometry, DistancesMatchDenselySampledWays) {
       const Eigen::Vector2d local = R_box_world * (p - rectangle.centre);
       return (local - local.cwiseMax(-rectangle.half_size).cwiseMin(rectangle.half_size)).norm();
     };
-    // The nearest sample is at most half a step along the way from the nearest point.
+    // Along the path, the nearest sample is at most half a step from the nearest point.
     const double tolerance = 0.5 * (way.end - way.start).norm() / steps + 1e-12;
     EXPECT_NEAR(distance(way, disk), sampled(way, steps, to_disk), tolerance);
     EXPECT_NEAR(distance(way, rectangle), sampled(way, steps, to_rectangle), tolerance);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "sim/simulator.hpp"
 
@@ -15,17 +16,18 @@ namespace {
 
 using std::numbers::pi;
 
-// Bullet's rays meet a cylinder within 0.07 mm of where they should: closer calls than this are not tested.
+// Bullet's rays hit a cylinder within 0.07 mm of the exact point. Cases closer than ray_accuracy are not
+// tested.
 constexpr double ray_accuracy = 1e-3;  // [m]
 
-/// How far the way from `from` to `to` stays from a circle; negative if it enters it. [m]
+/// The distance between the path from `from` to `to` and a circle; negative if the path enters the circle. [m]
 double clearance(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const worlds::Landmark& circle) {
   const Eigen::Vector2d along = to - from;
   const double share = std::clamp((circle.position - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
   return (from + share * along - circle.position).norm() - circle.radius;
 }
 
-/// The smallest clearance of the ray to the near face of a landmark from all the others. [m]
+/// The smallest clearance from all other landmarks of the ray to a landmark's near face. [m]
 double ray_clearance(const worlds::World& world, const Eigen::Vector2d& sensor, std::size_t target) {
   const worlds::Landmark& goal = world.landmarks[target];
   const Eigen::Vector2d face = goal.position + goal.radius * (sensor - goal.position).normalized();
@@ -38,7 +40,7 @@ double ray_clearance(const worlds::World& world, const Eigen::Vector2d& sensor, 
   return least;
 }
 
-// Crowded enough that landmarks overlap each other and the sensor now and then stands inside one.
+// The world is so crowded that landmarks overlap, and that the sensor is sometimes inside one.
 TEST(LineOfSight, MatchesCirclesOnThePlane) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> place(-5.0, 5.0), size(0.02, 0.4);
@@ -66,8 +68,8 @@ TEST(LineOfSight, MatchesCirclesOnThePlane) {
   EXPECT_GT(hidden, 1000);
 }
 
-// Seen from the origin a wall from (2, -1) to (2, 1), 0.2 m thick, hides what the line meets at x = 1.9
-// within |y| <= 1. The scene is turned and moved as a whole.
+// Seen from the origin, a wall from (2, -1) to (2, 1), 0.2 m thick, hides the points whose line of sight meets
+// x = 1.9 within |y| <= 1. The whole scene is turned and moved.
 TEST(LineOfSight, MatchesAWallOnThePlane) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> angle(-pi, pi), place(-2000.0, 2000.0), jitter(0.1, 0.9);
@@ -130,8 +132,7 @@ TEST(LineOfSight, BoxesHideAtAnyHeight) {
 TEST(LineOfSight, TheNearFaceDecidesForALandmarkThatIsPartlyCovered) {
   worlds::World world;
   world.landmarks = {{{4, 0}, 0.3}, {{4.2, 0.25}, 0.2}, {{3.75, 0.0}, 0.1}};
-  // The first sticks out of the second's side: seen from -x its face is free but for the third, which covers
-  // it.
+  // The first landmark sticks out of the second one's side. Seen from -x, only the third one covers its face.
   EXPECT_FALSE(make_simulator(world)->line_of_sight({0, 0}, 0));
   world.landmarks.pop_back();
   EXPECT_TRUE(make_simulator(world)->line_of_sight({0, 0}, 0));

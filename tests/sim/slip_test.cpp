@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "driver.hpp"
 
 namespace sim {
 namespace {
 
-/// How much further the wheels went than the robot, after three seconds of starting up at 1 m/s^2. [m]
+/// How much farther the wheels rolled than the robot moved, after three seconds of accelerating at 1 m/s^2. [m]
 double slip(const std::vector<worlds::FrictionPatch>& patches) {
   worlds::World world;
   world.physics.patches = patches;
@@ -15,9 +18,9 @@ double slip(const std::vector<worlds::FrictionPatch>& patches) {
   return wheel_travel(simulator->robot(), world.robot) - simulator->robot().position.x();
 }
 
-// Wheels that carry at most the whole weight cannot push harder than friction * g = 0.98 m/s^2, and they
-// carry about 3/4 of it: asked for 1 m/s^2 they spin until the robot has caught up, v^2 (1/a_robot -
-// 1/a_wheels) / 2 later.
+// The wheels carry about 3/4 of the weight, and at most all of it, so they cannot push harder than friction * g
+// = 0.98 m/s^2. Told to accelerate at 1 m/s^2, they spin until the robot has caught up: after v^2 (1/a_robot -
+// 1/a_wheels) / 2.
 TEST(Slip, ASlipperyPatchTakesWheelTravelThatTheRobotDoesNotMake) {
   const double on_patch = slip({{{-10, -10}, {10, 10}, 0.1}});
   EXPECT_GT(on_patch, 0.5 * (1.0 / 0.98 - 1.0));
@@ -32,7 +35,7 @@ TEST(Slip, FollowsThePatchThatCountsWhereTheWheelsStand) {
   EXPECT_GT(slip({{{-10, -10}, {10, 10}, 0.9}, slippery}), 0.01);
 }
 
-// One wheel on ice: it spins, the other pushes, and the robot turns to the side of the ice.
+// One wheel is on ice: it spins, the other one pushes, and the robot turns towards the ice.
 TEST(Slip, EachWheelHasItsOwnGround) {
   worlds::World world;
   world.physics.patches = {{{-10, 0}, {10, 10}, 0.02}};
@@ -43,7 +46,7 @@ TEST(Slip, EachWheelHasItsOwnGround) {
   EXPECT_GT(simulator->robot().heading - wheel_turn(simulator->robot(), world.robot), 0.05);
 }
 
-// Locked wheels on ice: the robot slides on, as far as friction lets it.
+// Locked wheels on ice: the robot slides on as far as friction allows.
 TEST(Slip, ARobotThatBrakesOnIceSlidesOn) {
   worlds::World world;
   world.robot.max_acceleration = 4.0;
@@ -58,7 +61,7 @@ TEST(Slip, ARobotThatBrakesOnIceSlidesOn) {
   EXPECT_LT(std::abs(after.v), 1e-3);
   const double slid = after.position.x() - before.position.x();
   EXPECT_GT(slid,
-            0.5 / (0.05 * 9.81));  // v^2 / (2 friction g): more, as the caster carries a part of the weight
+            0.5 / (0.05 * 9.81));  // more than v^2 / (2 friction g): the caster carries part of the weight
   EXPECT_LT(wheel_travel(after, world.robot) - wheel_travel(before, world.robot), 0.2);
 }
 

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "driver.hpp"
 
 namespace sim {
 namespace {
 
-/// About `count` landmarks at one in 16 m^2, jittered on a grid around the origin; a larger world has the
-/// same ones in its middle.
+/// About `count` landmarks, one in 16 m^2, on a jittered grid around the origin. A larger world has the same
+/// landmarks in its middle.
 worlds::World forest(int count) {
   constexpr double spacing = 4.0;
   const int half = static_cast<int>(std::lround(0.5 * std::sqrt(count)));
@@ -53,14 +54,14 @@ TEST(Work, OfStepsAndScansDoesNotGrowWithTheWorld) {
   EXPECT_NEAR(grew(small.objects_stepped, large.objects_stepped), 1.0, 0.1);
   EXPECT_NEAR(grew(small.rays, large.rays), 1.0, 0.1);
   EXPECT_NEAR(grew(small.candidates, large.candidates), 1.0, 0.1);
-  // Ground, chassis and two wheels, and few of the thousands beside.
+  // Ground, chassis and two wheels, and only a few of the thousands of landmarks.
   EXPECT_GE(large.objects_stepped, 4 * large.steps);
   EXPECT_LT(large.objects_stepped, 8 * large.steps);
   EXPECT_GT(large.rays, 300 * 5);
 }
 
-// Side by side in one process, and a third that is built when memory has been used and freed: through
-// collisions, slip and streaming.
+// Two simulators side by side in one process, and a third that is built after memory was used and freed. The
+// drive has collisions, slip and streaming.
 TEST(Determinism, TheSameWorldGivesTheSameBits) {
   worlds::World world = forest(400);
   world.physics.patches = {{{2, -3}, {5, 3}, 0.1}};
@@ -84,7 +85,7 @@ TEST(Determinism, TheSameWorldGivesTheSameBits) {
   }
 }
 
-// Asking where things are changes nothing.
+// Queries change nothing.
 TEST(Determinism, QueriesDoNotDisturbTheMotion) {
   const worlds::World world = forest(400);
   const auto asked = make_simulator(world), left_alone = make_simulator(world);

@@ -5,13 +5,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <variant>
 
 namespace soak {
 
 namespace {
 
-constexpr std::size_t most_told = 20;  // [-] of one run
+constexpr std::size_t most_told = 20;  // [-] messages of one run
 
 bool is_finite(const seif::Pose2& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
@@ -51,15 +52,15 @@ void Invariants::update(std::size_t estimator, const harness::UpdateRecord& reco
   require(std::abs(pose.theta) <= 3.1415926535897936, estimator, record.t, "the heading is not wrapped");
   if (record.est_covariance)
     require(is_proper(*record.est_covariance), estimator, record.t, "the pose's covariance is none");
-  if (record.innovation)
-    require(std::isfinite(*record.innovation) && *record.innovation >= 0.0, estimator, record.t,
+  if (record.counts.innovation)
+    require(std::isfinite(*record.counts.innovation) && *record.counts.innovation >= 0.0, estimator, record.t,
             "the innovation is no square");
-  require(record.blocks_touched >= 0 && record.links >= 0, estimator, record.t, "a count is negative");
+  require(record.blocks_touched >= 0 && record.counts.links >= 0, estimator, record.t, "a count is negative");
   const std::string& name = believers_.estimators[estimator].name;
-  if (name == "seif" || name == "groups") {  // theta_max, what is in view, and what a scan has just brought
+  if (name == "seif" || name == "groups") {  // theta_max, the landmarks in view, and the new ones of the scan
     constexpr int largest_theta_max = 24;
-    require(record.active_landmarks <= largest_theta_max + 2 * static_cast<int>(largest_scan_), estimator,
-            record.t, "more landmarks are active than the filter allows");
+    require(record.counts.active_landmarks <= largest_theta_max + 2 * static_cast<int>(largest_scan_),
+            estimator, record.t, "more landmarks are active than the filter allows");
   }
 }
 
@@ -70,7 +71,7 @@ void Invariants::consistency(std::size_t estimator, const harness::ConsistencyRe
   require_proper_belief(estimator, record.t);
 }
 
-/// Filters of ours; the report's may lose it, and that is told.
+/// Only for our filters: the report's filter may lose its proper belief, and reports that.
 void Invariants::require_proper_belief(std::size_t estimator, double t) {
   const harness::LiveEstimator& live = believers_.estimators[estimator];
   const std::vector<seif::LandmarkEstimate> map = live.filter->map();

@@ -1,6 +1,7 @@
-// What holds of every run, whatever its world.
+// Properties that hold for every run, whatever its world.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,10 @@
 
 namespace soak {
 
-/// Follows a run and gathers what was broken.
+/// Follows a run and collects the properties that it violates.
 class Invariants final : public harness::RunListener {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to `believers`.
   explicit Invariants(const harness::Believers& believers) : believers_(believers) {}
 
   void odometry(const harness::OdometryEvent& event) override;
@@ -21,7 +22,7 @@ class Invariants final : public harness::RunListener {
   void consistency(std::size_t estimator, const harness::ConsistencyRecord& record) override;
   void map(std::size_t estimator, std::span<const harness::MapRecord> landmarks) override;
 
-  /// One line for each; empty: all held.
+  /// One line for each violated property; empty if all hold.
   const std::vector<std::string>& broken() const { return broken_; }
 
  private:

@@ -1,6 +1,6 @@
-// Random worlds, one after the other, for as long as it is told: soak --minutes 60 --seed 1
-// Ends with 1 if anything that must hold did not; the world's text and seed are printed, so that it comes
-// again.
+// Runs random worlds, one after the other, for the given time: soak --minutes 60 --seed 1
+// Exits with 1 if a property that must hold is violated, and prints the world's text and seed, so that the case
+// can be repeated.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -26,11 +26,11 @@
 namespace {
 
 struct Tally {
-  int worlds = 0;  // [-] that were run
+  int worlds = 0;  // [-] worlds that were run
   int without_room = 0;
-  int failures = 0;  // [-] estimators that gave up, and said so
-  int diverged = 0;  // [-] estimators that said so
-  int broken = 0;    // [-] worlds in which something did not hold
+  int failures = 0;  // [-] estimators that failed and reported it
+  int diverged = 0;  // [-] estimators that reported it
+  int broken = 0;    // [-] worlds with a violated property
   double updates = 0.0;
   std::vector<double> resident;  // [byte] after each world
 };
@@ -82,7 +82,8 @@ void soak_one(std::uint64_t seed, bool twice, Tally& tally) {
   fmt::print("{}\n", text);
 }
 
-/// Whether memory is as large at the end as it was after the first tenth, but for the largest world's share.
+/// Whether memory is not larger at the end than after the first tenth of the worlds, apart from the share of
+/// the largest world.
 bool memory_is_flat(const std::vector<double>& resident) {
   constexpr double slack = 32.0 * (1 << 20);  // [byte]
   constexpr std::size_t enough = 20;
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
   Tally tally;
   const int most = 20 * std::max(worlds, 1);
   for (int i = 0; worlds > 0 ? tally.worlds < worlds && i < most : elapsed() < 60.0 * minutes; ++i) {
-    constexpr int each = 5;  // of so many worlds one is run twice
+    constexpr int each = 5;  // one of this number of worlds is run twice
     soak_one(seed + static_cast<std::uint64_t>(i), i % each == 0, tally);
   }
   const bool flat = memory_is_flat(tally.resident);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "world_files.hpp"
 
@@ -75,7 +78,7 @@ TEST(ParseDocument, GivesUpOnNestingThatIsTooDeep) {
 
 TEST(ParseDocument, GivesUpOnAliasBombs) {
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
-  for (int i = 1; i < 12; ++i) {  // each line stands for nine of the line before
+  for (int i = 1; i < 12; ++i) {  // each line refers nine times to the line before
     bomb += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i,
                         i - 1);
   }

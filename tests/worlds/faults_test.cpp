@@ -1,5 +1,8 @@
-// The section `faults`: what it says, and what of it is refused.
+// The section `faults`: how it is read, and which faults are refused.
 #include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
 
 #include "world_files.hpp"
 

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "world_files.hpp"
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "world_files.hpp"
 #include "worlds/geometry.hpp"
@@ -78,7 +80,7 @@ TEST_P(EveryGalleryWorld, KeepsThePathClearForTheRobot) {
   }
 }
 
-/// Landmarks in range, in the field of view, and behind no wall, on the average over the path.
+/// Landmarks in range, in the field of view and not behind a wall, averaged over the path.
 double mean_in_view(const World& world) {
   const std::vector<Rectangle> solids = solid_rectangles(world);
   const double step = std::max(1.0, length(world.drive.path, world.drive.closed) / 200);  // [m]

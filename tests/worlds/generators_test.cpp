@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "worlds/geometry.hpp"
 #include "worlds/path.hpp"
@@ -17,7 +20,7 @@ using Eigen::Vector2d;
 
 constexpr double rounding = 1e-12;  // [m]
 
-/// A world with one of everything that a landmark must keep clear of.
+/// A world with one of each thing that a landmark must keep clear of.
 World furnished_world() {
   World world;
   world.ground_size = {40, 40};
@@ -201,8 +204,8 @@ TEST(Generate, TakesTimeInProportionToTheLandmarks) {
   const double small = seconds(10'000);
   const double large = seconds(100'000);
   RecordProperty("seconds_for_100000", std::to_string(large));
-  // Ten times the work; a pass over all landmarks for each would be a hundred times. Room for slower caches
-  // and noise.
+  // Ten times the landmarks are ten times the work; a pass over all landmarks for each one would be a hundred
+  // times. The factor of 40 allows for slower caches and noise.
   EXPECT_LT(large, 40 * small + 0.1);
 }
 

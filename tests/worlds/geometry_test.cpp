@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "worlds/path.hpp"
 
@@ -15,7 +17,8 @@ using Eigen::Vector2d;
 
 constexpr double tolerance = 1e-12;  // [m] rounding at metre scale
 
-/// The least distance over a fine raster of the rectangle: an upper bound, close for points not far away.
+/// The smallest distance over a fine grid of points of the rectangle: an upper bound, which is close for points
+/// that are not far away.
 double sampled_distance(const Vector2d& p, const Rectangle& r, int steps) {
   const Vector2d side(-r.axis.y(), r.axis.x());
   double nearest = std::numeric_limits<double>::infinity();

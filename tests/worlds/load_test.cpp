@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "world_files.hpp"
 
 namespace worlds {
@@ -307,7 +313,7 @@ TEST(LoadWorld, NamesOverridesInTheirProblems) {
 }
 
 TEST(LoadWorld, DoesNotCheckWhatDependsOnAWrongValue) {
-  // Where the start is, nobody knows; so nobody can say that it is inside of the box.
+  // The start is unknown, so it cannot be reported as inside the box.
   EXPECT_EQ(
       problems_of("robot: {start: {x_m: here}}\nobstacles: {boxes: [{x_m: 0, y_m: 0, size_m: [1, 1]}]}\n"),
       "1:22: 'x_m' must be a number, not 'here'\n");
@@ -335,7 +341,7 @@ TEST(LoadWorld, WritesTheVersionOfTheProgramIntoTheResolvedFile) {
             0U);
 }
 
-// A name that YAML takes for nothing unless it stands in quotes.
+// YAML reads this name as a null value unless it is quoted.
 TEST(LoadWorld, AnEstimatorMayBeCalledNull) {
   const Folder folder;
   const LoadResult first = load_text(folder, "estimators: {\"null\": {type: ekf}, \"NULL\": {type: seif}}\n");

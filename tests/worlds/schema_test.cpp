@@ -4,10 +4,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "world_files.hpp"
 
@@ -18,7 +22,7 @@ using Json = nlohmann::json;
 using test::fake_estimators;
 using test::Folder;
 
-/// A scalar as YAML 1.2's core schema sees it.
+/// A scalar in the reading of YAML 1.2's core schema.
 Json to_json(const Node& node) {
   if (node.kind == Node::Kind::null) return nullptr;
   if (node.kind == Node::Kind::sequence) {
@@ -91,7 +95,7 @@ bool array_is_valid(const Json& schema, const Json& value) {
                      [&](const Json& item) { return is_valid(schema.value("items", Json(true)), item); });
 }
 
-/// As much of JSON Schema as the schema makes use of; a keyword beyond that is a failure.
+/// The part of JSON Schema that the schema uses; any other keyword is a failure.
 bool is_valid(const Json& schema, const Json& value) {
   if (schema.is_boolean()) return schema.get<bool>();
   static const std::regex known(
@@ -140,15 +144,15 @@ TEST(JsonSchema, AcceptsEveryGalleryFileAndWhatItResolvesTo) {
   }
 }
 
-/// Calls visit(node) for every value of a tree, with the tree changed and changed back by what visit does.
+/// Calls visit(node) for every value of a tree; visit may change the tree, but must undo the change.
 void for_each_node(Node& node, const std::function<void(Node&)>& visit) {
   for (Node& item : node.items) for_each_node(item, visit);
   for (Node::Entry& entry : node.entries) for_each_node(entry.value, visit);
   visit(node);
 }
 
-/// Every value of one resolved file that has all kinds of sections, mutated; loader and schema must refuse
-/// each.
+/// Mutates every value of one resolved file that has all kinds of sections. The loader and the schema must both
+/// refuse each mutant.
 class BothRefuse : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,11 +1,13 @@
-// What the tests of world files share: files that last as long as a test, and estimators that are none.
+// Helpers of the tests of world files: files that exist during a test, and fake estimators.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +17,7 @@
 
 namespace worlds::test {
 
-/// A folder of its own, gone with the object.
+/// A temporary folder; it is deleted with the object.
 class Folder {
  public:
   Folder() {

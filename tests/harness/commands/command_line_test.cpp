@@ -1,7 +1,9 @@
-// The program as people call it: exit codes, and what goes to which stream.
+// The program on the command line: exit codes, and which output goes to which stream.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "harness/command_call.hpp"
 #include "harness/estimators/registry.hpp"
@@ -74,7 +76,7 @@ TEST(CommandLine, ALogWithoutWorldRunsTheBaselineTheReportsFilterAndOurs) {
   for (const char* name : {"ekf", "seif", "seif_report"}) EXPECT_TRUE(estimators.contains(name)) << name;
 }
 
-/// Without what was measured with a clock.
+/// The summary without times.
 nlohmann::json without_times(nlohmann::json json) {
   if (json.is_object()) {
     for (const char* key : {"update_us", "stage_us", "update_p50_us", "update_p99_us", "realtime_factor"})

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/comparison/parallel_runs.hpp"
 
@@ -24,7 +26,7 @@ EstimatorScore score(const std::string& name, double rmse, double nees, int link
   return score;
 }
 
-/// Of two estimators in run `i`. That of `b` in the second, in which it fails, must not count.
+/// Details of two estimators in run `i`. Those of `b` in the second run, in which it fails, must not count.
 RunDetails details(int i) {
   RunDetails run;
   for (const char* name : {"a", "b"}) {

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "harness/command_call.hpp"
 #include "harness/doctor/diagnosis.hpp"
@@ -49,7 +52,7 @@ TEST(Doctor, FindsAllWellWhereEverythingIsInstalledInTenSeconds) {
   const Called called = call(folder, "doctor --json", "TMPDIR=$PWD/temporary");
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(called.exit_code, 0) << called.output;
-#ifdef NDEBUG  // sanitizers take time, and tell of what they let pass
+#ifdef NDEBUG  // sanitizers take time, and print what they allow
   EXPECT_EQ(called.errors, "");
   EXPECT_LT(took.count(), 10.0);
 #endif

@@ -5,8 +5,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/score.hpp"
@@ -25,7 +30,7 @@ using seif::Pose2;
 const seif::StageDone ignore = [](seif::Stage) {};
 const Pose2 T_robot_sensor{0.2, -0.1, 0.3};
 
-/// Motions of a robot that goes round, a factor of their noise, and what it saw after each.
+/// The motions of a robot that drives around, factors of their noise, and its observations after each motion.
 struct Recording {
   seif::PoseEstimate start;
   std::vector<seif::Odometry> motions;
@@ -45,8 +50,8 @@ Matrix3d noise_factor(Drive drive, int step) {
   return L;
 }
 
-/// Eight landmarks on a circle of 4 m, and a robot that drives on one of 2 m, `steps` of 0.5 rad. `noise`
-/// scales all that is drawn and all that is told of it.
+/// Eight landmarks on a circle of 4 m, and a robot that drives `steps` steps of 0.5 rad on a circle of 2 m.
+/// `noise` scales the drawn noise and the covariances that are reported.
 Recording record(Drive drive, int steps, double noise, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -103,8 +108,8 @@ std::vector<seif::LandmarkId> ids_of(const seif::Estimator& estimator) {
   return ids;
 }
 
-/// Gauss and Newton on the same problem, dense, with Jacobians by differences and other unknowns: the start,
-/// the noise w of each motion (x' = x * (u + L w), exact at any rank of L), and the landmarks.
+/// Gauss-Newton on the same problem, dense, with numerical Jacobians and other unknowns: the start, the noise w
+/// of each motion (x' = x * (u + L w), exact at any rank of L), and the landmarks.
 class DenseOracle {
  public:
   explicit DenseOracle(const Recording& recording)
@@ -133,7 +138,7 @@ class DenseOracle {
     const Eigen::MatrixXd G = jacobian(pose_and_landmarks, x_);
     return G * Sigma_ * G.transpose();
   }
-  /// After each motion.
+  /// The poses after each motion.
   std::vector<Vector3d> trajectory() const {
     std::vector<Vector3d> poses;
     Vector3d pose = x_.head<3>();
@@ -331,7 +336,7 @@ seif::Observation observation(double range, double bearing) {
 
 const seif::PoseEstimate start{{1.0, 2.0, 0.5}, Vector3d(1e-4, 4e-4, 1e-3).asDiagonal()};
 
-/// Where a landmark is that one pose sees so, and its covariance.
+/// Expects a landmark, observed in this way from one pose, at the right position with the right covariance.
 void expect_landmark(const seif::Estimator& batch, const Pose2& T_world_robot,
                      const Matrix3d& pose_covariance, const seif::Observation& seen) {
   const seif::InverseObservation expected = invert_observation(T_world_robot, T_robot_sensor, seen);
@@ -365,7 +370,7 @@ TEST(Batch, WithoutObservationsItIsDeadReckoning) {
   for (int i = 1; i <= 5; ++i) {
     const seif::Odometry motion{1.0 * i, {0.5, 0.1, 0.3}, L * L.transpose()};
     batch->motion_update(motion);
-    if (i < 5) batch->measurement_update({1.0 * i, {}}, ignore);  // the last motion is not followed by a scan
+    if (i < 5) batch->measurement_update({1.0 * i, {}}, ignore);  // no scan follows the last motion
     const seif::PredictedPose predicted = predict_pose(pose, motion);
     pose = predicted.pose;
     covariance = predicted.J_wrt_pose * covariance * predicted.J_wrt_pose.transpose() +

@@ -13,7 +13,7 @@
 namespace harness {
 namespace {
 
-/// A robot that drives circles among twelve landmarks, measured with exactly this noise.
+/// A robot that drives circles among twelve landmarks; the noise has exactly these values.
 CalibrationLog drawn_log(const NoiseValues& values, unsigned seed, int steps) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -56,7 +56,7 @@ TEST(Calibrate, ReturnsTheNoiseThatWasDrawnWithinItsStandardErrors) {
   const Calibration found = calibrate({drawn_log(truth, 1, 1500), drawn_log(truth, 2, 1500)}, guess);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_LT(std::abs(found.values[i] - truth[i]), 3.0 * found.standard_errors[i]) << i;
-    EXPECT_LT(found.standard_errors[i], 0.3 * truth[i]) << i;  // the data do tell
+    EXPECT_LT(found.standard_errors[i], 0.3 * truth[i]) << i;  // the data contain enough information
   }
   EXPECT_LE(found.outliers, 2);
 }
@@ -66,7 +66,7 @@ TEST(Calibrate, FindsZeroWhereThereIsNone) {
   const Calibration found = calibrate({drawn_log(truth, 3, 1500)}, guess);
   for (const std::size_t i : {0U, 2U, 4U, 6U})
     EXPECT_LT(std::abs(found.values[i] - truth[i]), 3.0 * found.standard_errors[i]) << i;
-  // What is not zero after all is too small to matter: it is within its standard errors of that.
+  // A value that is not estimated as zero is within three of its standard errors of zero.
   for (const std::size_t i : {1U, 3U, 5U}) EXPECT_LE(found.values[i], 3.0 * found.standard_errors[i]) << i;
 }
 
@@ -97,7 +97,7 @@ TEST(Calibrate, ReturnsTheNoiseOfASimulatedWorld) {
   const Calibration found = calibrate({read_for_calibration(log)}, guess);
   const double range_sd = world.landmark_sensor.range_sd;
   const double bearing_sd = world.landmark_sensor.bearing_sd;
-  // Wheels that err by k sqrt(s) each: the way by k / sqrt(2), the heading by sqrt(2) k / track.
+  // Each wheel has an error of k sqrt(s): the distance then has k / sqrt(2), the heading sqrt(2) k / track.
   const double k = world.encoders.distance_sd;
   EXPECT_LT(std::abs(found.values[0] - k / std::sqrt(2.0)), 3.0 * found.standard_errors[0]);
   EXPECT_LT(std::abs(found.values[2] - k * std::sqrt(2.0) / world.robot.track),

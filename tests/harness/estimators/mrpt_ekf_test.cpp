@@ -1,7 +1,11 @@
-// MRPT's EKF-SLAM against ours: two programs that have nothing in common but the equations.
+// MRPT's EKF-SLAM against ours: two programs that share only the equations.
 #include "harness/estimators/mrpt_ekf.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -26,7 +30,7 @@ class MrptEkfTest : public testing::Test {
   const TemporaryFolder folder;
 };
 
-// What is left is that MRPT takes measurements in single precision.
+// The remaining difference is that MRPT stores measurements in single precision.
 TEST_F(MrptEkfTest, IsOurEkf) {
   const Summary summary = test::run_live(world_of(test::choice("mrpt_ekf")), folder / "run").summary;
   EXPECT_EQ(summary.failures, (std::vector<std::string>{"", ""}));

@@ -1,12 +1,15 @@
-// Exports against values by hand, and against the optimum that the harness finds itself.
+// Exports against values computed by hand, and against the optimum that the harness finds.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "harness/command_call.hpp"
 #include "harness/exports/graph.hpp"
@@ -20,7 +23,7 @@ namespace {
 using test::read_file;
 using test::write_file;
 
-/// Lines by their first word, as numbers.
+/// The lines as numbers, sorted by their first word.
 std::map<std::string, std::vector<std::vector<double>>> parse(const std::string& g2o) {
   std::map<std::string, std::vector<std::vector<double>>> lines;
   std::istringstream text(g2o);
@@ -41,7 +44,7 @@ void expect_near(const std::vector<double>& values, const std::vector<double>& w
     EXPECT_NEAR(values[i], wanted[i], 1e-9 * std::max(1.0, std::abs(wanted[i]))) << i;
 }
 
-/// Two motions to the first scan, one to the second; landmark 7 is seen from both, and 3 from the second.
+/// Two motions up to the first scan, one up to the second. Landmark 7 is seen from both, and 3 from the second.
 void write_log(const std::filesystem::path& log) {
   std::filesystem::create_directories(log);
   write_file(log / "log.yaml",
@@ -71,18 +74,18 @@ TEST(G2o, MatchesTheHandComputedCase) {
   expect_near(lines["VERTEX_XY"][0], {3, 3.5, 4.1});
   expect_near(lines["VERTEX_XY"][1], {4, 8, 9});
   expect_near(lines["FIX"][0], {0});
-  // Twice a metre ahead, each with variances 0.04 and 0.01; the first has no uncertainty of the heading that
-  // would turn the second.
+  // Two motions of a metre ahead, each with variances 0.04 and 0.01. The first has no uncertainty of the
+  // heading that would turn the second.
   ASSERT_EQ(lines["EDGE_SE2"].size(), 2U);
   expect_near(lines["EDGE_SE2"][0], {0, 1, 2, 0, 0, 1 / 0.08, 0, 0, 1 / 0.02, 0, 1 / 0.25});
-  // The error of the second counts in the frame of its end, one radian to the left of where it has variances
-  // 0.25 and 0.04.
+  // The error of the second motion is expressed in the frame of its end. This is turned by one radian to the
+  // left of the frame in which the variances are 0.25 and 0.04.
   const double c = std::cos(1.0);
   const double s = std::sin(1.0);
   expect_near(lines["EDGE_SE2"][1],
               {1, 2, 2, 0, 1, 4 * c * c + 25 * s * s, 21 * c * s, 0, 4 * s * s + 25 * c * c, 0, 4});
-  // The sensor is 0.5 m ahead. At 2 m to the left the range errs along y by 0.1 m, the bearing along x by 2 *
-  // 0.1.
+  // The sensor is 0.5 m ahead. At 2 m to the left, the range has an error of 0.1 m along y, and the bearing one
+  // of 2 * 0.1 along x.
   ASSERT_EQ(lines["EDGE_SE2_XY"].size(), 3U);
   expect_near(lines["EDGE_SE2_XY"][0], {1, 3, 0.5, 2, 25, 0, 100});
   expect_near(lines["EDGE_SE2_XY"][1], {2, 3, 1.5, 0, 100, 0, 100});
@@ -93,14 +96,13 @@ TEST(Gtsam, MatchesTheHandComputedCase) {
   const TemporaryFolder folder;
   write_log(folder / "log");
   auto lines = parse(to_gtsam(read_graph(folder / "log", "filter")));
-  // The sensor, 0.5 m ahead.
+  // The pose of the sensor, 0.5 m ahead.
   ASSERT_EQ(lines["VERTEX_SE2"].size(), 3U);
   expect_near(lines["VERTEX_SE2"][1], {1, 3.6, 2, 0});
   expect_near(lines["VERTEX_SE2"][2], {2, 5 + 0.5 * std::cos(1.0), 2.2 + 0.5 * std::sin(1.0), 1});
   expect_near(lines["VERTEX_XY"][1], {4, 8, 9});
-  // Where the robot errs by phi, the sensor errs by 0.5 phi to the left: variance 0.02 + 0.25 * 0.25,
-  // covariance 0.5 * 0.25 with the heading. The inverse of ((0.0825, 0.125), (0.125, 0.25)) has the
-  // determinant 0.005.
+  // An error phi of the robot's heading moves the sensor by 0.5 phi to the left: variance 0.02 + 0.25 * 0.25,
+  // covariance with the heading 0.5 * 0.25. The determinant of ((0.0825, 0.125), (0.125, 0.25)) is 0.005.
   expect_near(lines["EDGE_SE2"][0],
               {0, 1, 2, 0, 0, 1 / 0.08, 0, 0, 0.25 / 0.005, -0.125 / 0.005, 0.0825 / 0.005});
   ASSERT_EQ(lines["BR"].size(), 3U);
@@ -164,8 +166,8 @@ TEST(G2o, ARobotThatStandsMakesNoPose) {
   EXPECT_EQ(lines["EDGE_SE2_XY"][2][0], 1.0);
 }
 
-/// The file alone, read without any code of the exporter's, weighs the optimum's landmarks as seen from its
-/// poses: their squared errors are a chi-square's.
+/// Reads the file without any code of the exporter. The squared errors of its edges, for the optimum's poses
+/// and landmarks, have a chi-square distribution.
 TEST(G2o, TheOptimumFitsItsEdges) {
   const TemporaryFolder folder;
   test::run_live(test::small_world(), folder / "run");
@@ -184,7 +186,7 @@ TEST(G2o, TheOptimumFitsItsEdges) {
   }
   const auto count = static_cast<double>(2 * lines["EDGE_SE2_XY"].size());
   ASSERT_GT(count, 500.0);
-  // Fitting takes away at most as many degrees of freedom as there are unknowns; five sigma besides.
+  // Fitting removes at most as many degrees of freedom as there are unknowns. Five sigma are added.
   const auto unknowns = static_cast<double>(3 * best.poses.size() + 2 * best.landmarks.size());
   EXPECT_GT(sum, count - unknowns - 5.0 * std::sqrt(2.0 * count));
   EXPECT_LT(sum, count + 5.0 * std::sqrt(2.0 * count));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace harness {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 using Values = std::vector<double>;
 
 TEST(SmallestAndLargest, MatchesTheCaseByHand) {
-  // Two stretches, [0, 4) and [4, 8]; in the first the smallest comes first, in the second the largest.
+  // Two parts, [0, 4) and [4, 8]. In the first part the smallest value is before the largest, in the second
+  // after it.
   const Points kept = smallest_and_largest({{0, 1, 2, 3, 4, 5, 6, 7, 8}, {5, 1, 9, 5, 5, 8, 5, 2, 5}}, 2);
   EXPECT_EQ(kept.x, (Values{1, 2, 5, 7}));
   EXPECT_EQ(kept.y, (Values{1, 9, 8, 2}));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <string>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"

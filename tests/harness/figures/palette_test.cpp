@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 
 #include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"
@@ -13,7 +14,7 @@
 namespace harness {
 namespace {
 
-/// How far apart two colours are. [-] of 255 for each channel
+/// The difference of two colours. [-] of 255 for each channel
 double distance(Rgb a, Rgb b) {
   const auto channel = [](Rgb colour, int shift) { return static_cast<double>((colour >> shift) & 0xFFU); };
   double sum = 0;

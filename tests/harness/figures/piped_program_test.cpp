@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 

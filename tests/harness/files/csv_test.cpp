@@ -2,9 +2,13 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <random>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"

@@ -1,4 +1,4 @@
-// `seifbed film` and `seifbed run --film` as people call them.
+// `seifbed film` and `seifbed run --film` on the command line.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -34,7 +34,7 @@ class FilmCommand : public testing::Test {
 
   void run() { ASSERT_EQ(call(folder_, "run world.yaml --quiet --out run").exit_code, 0); }
 
-  /// What ffprobe counts.
+  /// The number of frames that ffprobe counts.
   std::string frames_of(const std::string& film) {
     const Called probed = test::call_program(
         folder_, "ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 " + film);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/estimators/registry.hpp"
@@ -15,7 +17,7 @@
 namespace harness {
 namespace {
 
-/// What a command with a positional argument of its own makes of a command line.
+/// The options that a command with a positional argument reads from a command line.
 FilmOptions parsed(const std::string& command_line) {
   CLI::App app;
   FilmOptions options;

@@ -1,4 +1,4 @@
-// What films show, down to the pixels: with a filter whose belief is laid down by the test.
+// The content of films, checked to the pixel, with a filter whose belief the test sets.
 #include "harness/film/film.hpp"
 
 #include <gtest/gtest.h>
@@ -6,9 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/film/film_folder.hpp"
 #include "harness/film/paint.hpp"
@@ -21,7 +27,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// Keeps the frames.
+/// Stores the frames.
 class Frames final : public FrameSink {
  public:
   explicit Frames(std::vector<render::Image>& frames) : frames_(frames) {}
@@ -38,7 +44,7 @@ class BrokenSink final : public FrameSink {
   void finish() override {}
 };
 
-/// Believes in three landmarks, whatever it sees; the first and the last have a link.
+/// Believes in three landmarks, whatever it sees. The first and the last have a link.
 class Dogmatist final : public seif::Estimator {
  public:
   explicit Dogmatist(const seif::EstimatorSetup& setup) : pose_(setup.start.mean) {}
@@ -90,7 +96,7 @@ worlds::EstimatorChoice dogmatist() {
   return choice;
 }
 
-/// Seen from straight above by a camera at the origin, with nothing but what the test asks for.
+/// A world seen from straight above by a camera at the origin, with only the layers that the test asks for.
 worlds::World bare_world(double duration) {
   worlds::World world;
   world.name = "bare";
@@ -124,7 +130,7 @@ worlds::World bare_world(double duration) {
   return world;
 }
 
-/// Films a world as it runs.
+/// Films a world while it runs.
 std::vector<render::Image> film_live(const worlds::World& world, const std::filesystem::path& folder,
                                      double from = 0.0) {
   std::filesystem::create_directories(folder);
@@ -140,7 +146,7 @@ std::vector<render::Image> film_live(const worlds::World& world, const std::file
   return frames;
 }
 
-/// Where the camera of bare_world() shows a point of the ground. [px]
+/// The pixel at which the camera of bare_world() shows a point of the ground. [px]
 Vector2d pixel_of(const worlds::World& world, const Vector2d& p_world) {
   const double pixels_per_metre = world.film.height / (3.0 * world.landmark_sensor.max_range);
   return {0.5 * world.film.width + pixels_per_metre * p_world.x(),
@@ -154,7 +160,7 @@ Rgb8 colour_at(const render::Image& image, int x, int y) {
   return {pixel[0], pixel[1], pixel[2]};
 }
 
-/// How far a pixel about a place is from the colour of the bare ground at the most. [-] of 255
+/// The largest difference of a pixel near a place from the colour of the bare ground. [-] of 255
 int contrast(const render::Image& image, const Vector2d& pixel, const Rgb8& ground) {
   int most = 0;
   const int x = static_cast<int>(std::floor(pixel.x()));
@@ -168,7 +174,7 @@ int contrast(const render::Image& image, const Vector2d& pixel, const Rgb8& grou
   return most;
 }
 
-/// An empty place of the ground.
+/// The colour of the ground at an empty place.
 Rgb8 ground_of(const worlds::World& world, const render::Image& image) {
   const Vector2d pixel = pixel_of(world, {-6.0, 6.0});
   return colour_at(image, static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
@@ -200,7 +206,7 @@ TEST_F(FilmTest, ShowsALinkBetweenTheLandmarksThatHaveIt) {
 TEST_F(FilmTest, DrawsEllipsesOfTwoStandardDeviations) {
   worlds::World world = bare_world(0.4);
   world.film.layers.ellipses = true;
-  world.film.width = world.film.height = 1280;  // the outline is thin then
+  world.film.width = world.film.height = 1280;  // the outline is then thin
   const std::vector<render::Image> frames = film_live(world, folder_ / "run");
   const render::Image& last = frames.back();
   const Rgb8 ground = ground_of(world, last);

@@ -1,4 +1,4 @@
-// Films as files, looked at with ffprobe and ffmpeg.
+// Film files, examined with ffprobe and ffmpeg.
 #include "harness/film/frame_sink.hpp"
 
 #include <gtest/gtest.h>
@@ -9,12 +9,16 @@
 
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -32,7 +36,7 @@ constexpr FrameFormat format{128, 96, 25};
 using Pixel = std::array<int, 3>;
 constexpr std::array<Pixel, 4> quarters = {{{213, 94, 0}, {0, 158, 115}, {0, 114, 178}, {230, 40, 200}}};
 
-/// Quarters of four colours, and a white square that moves.
+/// Four quarters of different colours, and a white square that moves.
 Image frame(int number) {
   Image image{format.width, format.height, {}};
   for (int y = 0; y < image.height; ++y) {
@@ -56,7 +60,7 @@ void write_film(const std::filesystem::path& file, int count, const FrameFormat&
   sink->finish();
 }
 
-/// What a command prints.
+/// The output of a command.
 std::string output_of(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot call " + command);
@@ -66,7 +70,7 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-/// What ffprobe says of a film, having decoded all of it.
+/// ffprobe's description of a film, after decoding all of it.
 std::map<std::string, std::string> probe(const std::filesystem::path& file) {
   std::istringstream lines(
       output_of("ffprobe -v error -count_frames -show_streams -show_format -of default=noprint_wrappers=1 '" +
@@ -79,14 +83,14 @@ std::map<std::string, std::string> probe(const std::filesystem::path& file) {
 
 int frames_in(const std::filesystem::path& file) { return std::stoi(probe(file).at("nb_read_frames")); }
 
-/// The frame as a player shows it that goes by what the file says of its colours.
+/// The frame as shown by a player that uses the colour information of the file.
 Image decoded(const std::filesystem::path& film, int number) {
   const std::string raw = output_of("ffmpeg -v error -i '" + film.string() + "' -vf \"select='eq(n," +
                                     std::to_string(number) + ")'\" -frames:v 1 -f rawvideo -pix_fmt rgb24 -");
   return {format.width, format.height, {raw.begin(), raw.end()}};
 }
 
-/// What a call throws; empty if it does not.
+/// The message of the exception of a call; empty if it throws none.
 template <class Error>
 std::string message_of(const std::function<void()>& call) {
   try {
@@ -97,7 +101,7 @@ std::string message_of(const std::function<void()>& call) {
   return "";
 }
 
-/// Programs are looked for in this folder alone.
+/// During its life, programs are searched in this folder only.
 class OnlyPath {
  public:
   explicit OnlyPath(const std::filesystem::path& folder) : former_(std::getenv("PATH")) {
@@ -138,7 +142,7 @@ TEST_P(EveryVideo, ShowsTheColoursThatWereWritten) {
   write_film(file("film"), 3);
   const Image image = decoded(file("film"), 2);
   ASSERT_EQ(image.rgb.size(), frame(2).rgb.size());
-  const int worst = GetParam() == ".gif" ? 0 : 4;  // 8 bits of brightness, and quantisation
+  const int worst = GetParam() == ".gif" ? 0 : 4;  // from 8 bits of brightness, and quantisation
   for (std::size_t quarter = 0; quarter < quarters.size(); ++quarter) {
     const std::uint8_t* pixel = image.pixel(quarter % 2 == 0 ? 32 : 96, quarter < 2 ? 24 : 72);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(pixel[i], quarters.at(quarter).at(i), worst) << quarter;

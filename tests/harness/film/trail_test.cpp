@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace harness {
 namespace {
@@ -51,7 +52,7 @@ TEST(Trail, KeepsTheLastPartFineAndTheRestNearTheWay) {
   const std::vector<Leg> legs = legs_of(trail, way(2000.0));
   for (std::size_t i = legs.size() - 200; i < legs.size(); ++i)
     EXPECT_LT((legs[i].to - legs[i].from).norm(), 0.11);
-  // At least every seventh metre of two thousand is kept: such a chord lies 7^2 / (8 50) m inside of the
+  // At least one point in seven metres of the 2,000 is kept. Such a chord lies 7^2 / (8 50) m inside the
   // circle.
   for (const Leg& leg : legs) EXPECT_NEAR((0.5 * (leg.from + leg.to)).norm(), 50.0, 0.1225);
 }

@@ -1,8 +1,9 @@
-// Courtyard and forest without names: what ekf and seif find out by themselves.
+// Courtyard and forest without names: the associations that ekf and seif find by themselves.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ const std::vector<std::string> in_courtyard = {
     "estimators={ekf: {association: joint}, seif: {association: joint}, ekf_nearest: {type: ekf, "
     "association: "
     "nearest}, seif_nearest: {type: seif, association: nearest}}"};
-/// Lanes through some 500 trees in an eighth of the time of the whole forest.
+/// Lanes through about 500 trees, in an eighth of the time that the whole forest takes.
 const std::vector<std::string> in_forest = {
     "estimators={ekf: {association: joint}, seif: {association: joint}}",
     "duration_s=450",

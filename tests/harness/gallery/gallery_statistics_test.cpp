@@ -1,8 +1,9 @@
-// What the gallery's worlds are to show, over enough seeds to tell.
+// What the worlds of the gallery are meant to show, over enough seeds for a significant result.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,11 @@ worlds::World gallery_world(const std::string& name, std::vector<std::string> ov
 struct MeanScores {
   double pose = 0.0;
   double landmark = 0.0;
-  double squared_error = 0.0;  // of a landmark [m^2]
+  double squared_error = 0.0;  // mean over the landmarks [m^2]
 };
 
-/// Means over `seeds` runs of the estimator's NEES per degree of freedom, and of its error, when each run
-/// ends.
+/// Means over `seeds` runs of the estimator's NEES per degree of freedom, and of its error, at the end of each
+/// run.
 std::vector<MeanScores> final_scores(const std::string& world_name, const std::vector<std::string>& overrides,
                                      int seeds) {
   std::vector<MeanScores> means;
@@ -51,8 +52,8 @@ std::vector<MeanScores> final_scores(const std::string& world_name, const std::v
 TEST(Gallery, CourtyardHoldsTheEkfAndSeifInTheirBandAndTheReportsSeifFarOutside) {
   const std::vector<MeanScores> nees = final_scores("courtyard", {"sensors.encoders.calibrated=true"}, 20);
   ASSERT_EQ(nees.size(), 3U);  // ekf, seif, seif_report
-  // chi-square over 20 runs: 60 degrees of freedom for the pose. The landmarks of one run share their errors,
-  // so that they are counted as one: 40.
+  // Bands of the chi-square distribution over 20 runs. For the pose: 60 degrees of freedom. The landmarks of
+  // one run share their errors, so they count as one landmark: 40.
   for (const int i : {0, 1}) {
     const MeanScores& consistent = nees[static_cast<std::size_t>(i)];
     EXPECT_GT(consistent.pose, 40.48 / 60) << i;
@@ -83,7 +84,7 @@ TEST(Gallery, Report2002HoldsAllButTheReportsSeifInTheirBandsInTheKinematicEngin
   EXPECT_GT(scores[4].landmark, 10.0);
 }
 
-// What seif loses against the EKF is less than the spread of 20 runs, so it takes more of them.
+// The difference between seif and the EKF is smaller than the spread of 20 runs, so this takes more runs.
 TEST(Gallery, Report2002GivesSeifTheErrorOfTheEkf) {
   const std::vector<MeanScores> scores =
       final_scores("report2002", {"physics.engine=kinematic", "estimators={ekf: {}, seif: {}}"}, 100);
@@ -92,7 +93,7 @@ TEST(Gallery, Report2002GivesSeifTheErrorOfTheEkf) {
   EXPECT_LT(seif_over_ekf, 1.1);
 }
 
-// A sensor that sees nothing leaves dead reckoning with its covariance.
+// With a sensor that sees nothing, only dead reckoning and its covariance are left.
 const std::vector<std::string> blind{"sensors.landmark_sensor.max_range_m=0.05", "estimators={ekf: {}}",
                                      "sensors.encoders.calibrated=true"};
 
@@ -122,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(All, GalleryWorld,
                                          "slippery", "umbmark"),
                          [](const auto& world) { return std::string(world.param); });
 
-// Ice and wrong wheels make innovations too large, and are no divergence; being carried off is.
+// Ice and wrong wheels make innovations too large, which is no divergence. Kidnapping is one.
 TEST_P(GalleryWorld, HasNoFilterOfOursThatSaysItDiverged) {
   const TemporaryFolder folder;
   worlds::World world = gallery_world(GetParam(), {"duration_s=400"});

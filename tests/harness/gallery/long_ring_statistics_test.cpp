@@ -1,4 +1,4 @@
-// Rings so long that the EKF goes wrong where they close, against the optimum of the same measurements.
+// Rings so long that the EKF fails when they close, against the optimum of the same measurements.
 
 #include <gtest/gtest.h>
 
@@ -27,14 +27,14 @@ using seif::Pose2;
 
 const seif::StageDone ignore = [](seif::Stage) {};
 
-/// For each degree of freedom. [-]
+/// NEES per degree of freedom. [-]
 struct Nees {
   double pose;
   double map;
 };
 
-/// A drive along a ring in steps of 0.5 m, with a landmark for each 1.25 m of it within 3 m on either side;
-/// those within 4 m are seen.
+/// A drive along a ring in steps of 0.5 m, with one landmark per 1.25 m of the ring, within 3 m of it on both
+/// sides. Those within 4 m of the robot are seen.
 class Ring {
  public:
   Ring(double length, unsigned seed) : length_(length), radius_(length / (2 * std::numbers::pi)) {
@@ -54,7 +54,7 @@ class Ring {
     return {.start = start_, .T_robot_sensor = {}, .random = std::mt19937_64(5)};
   }
 
-  /// The whole drive again for each filter, from the same numbers. Calls after_step(k) after each.
+  /// Repeats the whole drive for each filter with the same random numbers. Calls after_step(k) after each step.
   template <class AfterStep>
   void drive(seif::Estimator& filter, int steps, AfterStep&& after_step) {
     const std::mt19937_64 random = random_;
@@ -70,7 +70,7 @@ class Ring {
     drive(filter, static_cast<int>(1.1 * length_ / 0.5), [](int) {});
   }
 
-  /// The first that sees again what the beginning has seen.
+  /// The first step that sees landmarks of the beginning again.
   int closing_step() const {
     int step = static_cast<int>(0.5 * length_ / 0.5);
     while (!std::ranges::any_of(landmarks_, [&](const Vector2d& m) { return sees(1, m) && sees(step, m); })) {
@@ -79,7 +79,7 @@ class Ring {
     return step;
   }
 
-  /// Of the pose after this step, and mean over the map.
+  /// The NEES of the pose after this step, and its mean over the map.
   Nees nees(const seif::Estimator& filter, int step) const {
     std::vector<seif::LandmarkId> ids;
     std::vector<Vector2d> errors;
@@ -160,7 +160,7 @@ class Ring {
   seif::PoseEstimate start_;
 };
 
-/// Errors of seif over those of the optimum, in order of size.
+/// Ratios of the errors of seif to those of the optimum, sorted.
 std::vector<double> ratios(double length, int rings) {
   std::vector<double> ratios;
   for (int seed = 1; seed <= rings; ++seed) {
@@ -190,7 +190,7 @@ TEST(LongRing, OfFiveHundredMetresClosesAsInTheOptimum) {
   EXPECT_LE(found.back(), 2.0);
 }
 
-/// In the last update before the ring closes, in that in which it does, and 400 updates later.
+/// In the last update before the ring closes, in the update that closes it, and 400 updates later.
 using AboutClosure = std::array<Nees, 3>;
 
 AboutClosure nees_about_closure(Ring& ring, seif::Estimator& filter) {
@@ -244,7 +244,7 @@ TEST(LongRing, KnowsHowFarOffItIsBeforeItClosesAndAfter) {
     EXPECT_GE(nees.map, 0.8);
     EXPECT_LE(nees.map, 1.3);
   }
-  EXPECT_GT(std::min(ekf[2].pose, ekf[2].map), 100.0);  // it is not easy
+  EXPECT_GT(std::min(ekf[2].pose, ekf[2].map), 100.0);  // the task is not easy
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/stream/log_description.hpp"
@@ -10,7 +12,7 @@
 namespace harness {
 namespace {
 
-/// Robot and two landmarks: one tied to the robot, and both to each other.
+/// The robot and two landmarks: one is linked to the robot, and the two are linked.
 Eigen::MatrixXd two_links() {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(7, 7);
   M.diagonal() << 4, 9, 1, 16, 4, 1, 25;
@@ -68,8 +70,8 @@ TEST(BeliefOf, IsTheSameInCovarianceAndInInformationForm) {
     ASSERT_EQ(belief.landmarks.size(), 1U);
     EXPECT_LT((belief.landmarks[0].est_point - Eigen::Vector2d(2.0, 0.0)).norm(), 1e-12);
     EXPECT_EQ(belief.landmarks[0].true_point.x(), 2.5);
-    // Of the pose the variances are 1. Along the ray the range adds its own; across it the heading adds 2^2,
-    // and the bearing as much again.
+    // The variances of the pose are 1. Along the ray the range adds its own variance. Across it the heading
+    // adds 2^2, and the bearing as much again.
     ASSERT_EQ(belief.covariance.rows(), 5);
     EXPECT_NEAR(belief.covariance(3, 3), 1.25, 1e-9) << type;
     EXPECT_NEAR(belief.covariance(4, 4), 9.0, 1e-9) << type;

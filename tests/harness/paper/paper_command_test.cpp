@@ -1,4 +1,4 @@
-// `seifbed paper` as people call it, and as they stop it.
+// `seifbed paper` on the command line, and when it is stopped.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
@@ -82,7 +82,7 @@ TEST(PaperCommand, AnInterruptLeavesTheTableOfTheRunsThatHaveEnded) {
   pointers.push_back(nullptr);
   pid_t child = 0;
   ASSERT_EQ(posix_spawn(&child, SEIFBED_PROGRAM, nullptr, nullptr, pointers.data(), environ), 0);
-  // From then on it heeds the signal.
+  // From then on the program handles the signal.
   while (!std::filesystem::exists(folder / "cut" / "world.yaml"))
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGINT);

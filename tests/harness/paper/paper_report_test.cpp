@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace harness {
 namespace {
@@ -19,8 +22,8 @@ EstimatorScore score(const std::string& name, double rmse, double nees, int link
   return score;
 }
 
-/// Three runs with squared errors of 1, 4, 9 and of 4, 16, 36 [1e-3 m^2]. Of 1, 4, 9 the mean is 14/3, the
-/// standard deviation 7/sqrt(3), so the standard error is 7/3; Student's quantile with two degrees of freedom
+/// Three runs, with squared errors of 1, 4, 9 and of 4, 16, 36 [1e-3 m^2]. For 1, 4, 9 the mean is 14/3 and the
+/// standard deviation 7/sqrt(3), so the standard error is 7/3. Student's quantile with two degrees of freedom
 /// is 4.302653.
 Comparison example() {
   Comparison comparison;

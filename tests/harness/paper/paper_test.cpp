@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "harness/estimators/registry.hpp"
 #include "harness/fixtures.hpp"
@@ -99,7 +102,7 @@ TEST_F(Paper, WhatIsDrawnIsTheFirstRunOfTheTable) {
                 1e-6 * row.landmark_mse->value)
         << row.name;
     EXPECT_TRUE((belief.covariance * belief.information).isIdentity(1e-6)) << row.name;
-    // The pose: by NEES that was computed from the run's own files.
+    // The pose, through the NEES that was computed from the run's own files.
     const Eigen::Vector3d error = pose_error(belief.pose.est_pose, belief.pose.true_pose);
     EXPECT_NEAR(nees(error, Eigen::Matrix3d(belief.covariance.topLeftCorner<3, 3>())).value(),
                 row.nees_pose->value, 1e-6 * row.nees_pose->value)

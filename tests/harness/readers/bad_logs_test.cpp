@@ -1,9 +1,12 @@
-// Logs that are broken: a complaint that says where, and never a crash.
+// Broken logs give a message that says where the error is, and never a crash.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <random>
+#include <string>
+#include <variant>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -25,7 +28,7 @@ struct BadLog {
   std::string file;
   std::string from;
   std::string to;
-  std::string complaint;  // behind the path of the folder
+  std::string complaint;  // after the path of the folder
 };
 
 void PrintTo(const BadLog& bad, std::ostream* out) { *out << bad.complaint; }
@@ -86,7 +89,7 @@ TEST_P(BadLogs, AreRefusedWithFileLineColumnAndReason) {
   }
 }
 
-/// The complaint about a log, without its path; empty if it is taken.
+/// The error message for a log, without its path; empty if the log is accepted.
 std::string complaint_about(const LogChoice& choice) {
   try {
     read_all(*open_log(choice));
@@ -122,7 +125,7 @@ TEST(GraphTruth, MustHaveTheMotionsOfTheLog) {
   }
 }
 
-/// Some bytes of a text changed, taken out or doubled.
+/// The text with some bytes changed, removed or doubled.
 std::string mutated(std::string text, std::mt19937& random) {
   const std::string bytes = "0123456789.-+e naif\n\t#,:EL\xff";
   const auto pick = [&](std::size_t size) {

@@ -1,11 +1,14 @@
-// Public data sets, where SEIFBED_DATASETS names a folder that has them: docs/datasets.md.
+// Public data sets, if SEIFBED_DATASETS names a folder that holds them: docs/datasets.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "harness/estimators/registry.hpp"
@@ -19,7 +22,7 @@
 namespace harness {
 namespace {
 
-/// Where the data sets are; skips the test where nobody says so.
+/// The folder of the data sets; skips the test if the variable is not set.
 class Datasets : public testing::Test {
  protected:
   void SetUp() override {
@@ -40,7 +43,7 @@ struct Replayed {
   DistanceFromReference seif_from_batch;
 };
 
-/// Those of `seifbed replay LOG`. Time-consuming scores are taken at the end.
+/// The settings of `seifbed replay LOG`. Scores that take time are computed only at the end.
 worlds::LoadResult settings_of(const LogChoice& log, const seif::Registry& registry) {
   ReplayChoices choices;
   choices.overrides = {"scoring.interval_s=1e6"};
@@ -48,7 +51,7 @@ worlds::LoadResult settings_of(const LogChoice& log, const seif::Registry& regis
   return load_replay_settings(log.path, choices, registry);
 }
 
-/// As `seifbed replay LOG`, and `seifbed score` with the reference.
+/// Like `seifbed replay LOG` and `seifbed score` with the reference.
 Replayed replay_with(const LogChoice& log, const std::string& reference) {
   const seif::Registry registry = known_estimators();
   const TemporaryFolder folder;
@@ -71,7 +74,7 @@ Replayed replay_with(const LogChoice& log, const std::string& reference) {
 struct MrclamRun {
   std::string folder;
   int robot;
-  double of_the_optimum = 1.10;  // by how much the map may be worse
+  double of_the_optimum = 1.10;  // largest error of the map over that of the optimum
 };
 
 class VictoriaParkGraph : public Datasets {};
@@ -89,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, Mrclam,
                            return run.param.folder + "Robot" + std::to_string(run.param.robot);
                          });
 
-// Robot 2 misses the 1.10 that the others keep: 1.18, where the EKF, as inconsistent there, is at 1.19.
+// Robot 2 exceeds the 1.10 that the others keep: 1.18. The EKF, as inconsistent there, has 1.19.
 TEST_P(Mrclam, SeifIsAsGoodAsTheEkfAndNearTheOptimum) {
   const std::filesystem::path folder = folder_ / "mrclam";
   const Replayed run =
@@ -106,12 +109,12 @@ TEST_F(VictoriaParkGraph, SeifIsNoFartherFromTheOptimumThanTheEkf) {
   const std::filesystem::path folder = folder_ / "victoria_park";
   const Replayed run = replay_with({.path = folder / "isam_victoriaPark.txt"}, "batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 151);
-  EXPECT_FALSE(run.seif.landmarks.rmse);  // nobody knows the truth
+  EXPECT_FALSE(run.seif.landmarks.rmse);  // there is no ground truth
   EXPECT_LE(*run.seif_from_batch.landmarks.rmse_aligned, *run.ekf_from_batch.landmarks.rmse_aligned);
 }
 
-/// Where the receiver was, by the second; it stood by the laser. Times count from the first row of the
-/// odometry, as in the run.
+/// The positions of the GPS receiver, one per second; it was mounted next to the laser. Times count from the
+/// first row of the odometry, as in the run.
 std::vector<TimedPose> read_gps(const std::filesystem::path& folder) {
   constexpr double first_odometry = 21.940;  // [s]
   std::istringstream text(test::read_file(folder / "derived_gps.txt"));
@@ -130,7 +133,7 @@ struct FromGps {
   std::vector<Eigen::Vector2d> gps, est;  // [m] at the times of the fixes, each in its own frame
 };
 
-/// Where the laser was by the estimate nearest in time to each fix, if there is one within a tenth of a
+/// For each fix: the position of the laser by the estimate nearest in time, if there is one within a tenth of a
 /// second.
 FromGps pair_with_gps(const std::vector<TimedPose>& fixes, const std::vector<TimedPose>& poses,
                       const Eigen::Vector2d& p_robot_laser) {
@@ -146,7 +149,8 @@ FromGps pair_with_gps(const std::vector<TimedPose>& fixes, const std::vector<Tim
   return pairs;
 }
 
-/// After an alignment that the fixes which jump have no part in: of the nearer half, time and again.
+/// The median distance after an alignment that ignores fixes that jump: it uses the nearer half of the fixes,
+/// several times.
 double median_distance(const FromGps& pairs) {
   std::vector<Eigen::Vector2d> from = pairs.est;
   std::vector<Eigen::Vector2d> to = pairs.gps;

@@ -1,4 +1,4 @@
-// Small logs by hand, one in each format.
+// Small logs made by hand, one in each format.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,23 @@
 
 namespace harness::test {
 
-/// File names and what stands in them.
+/// File names and the contents of the files.
 using Files = std::map<std::string, std::string>;
 
-/// Robot 2 drives ahead for a second, stands, and turns on the spot; it sees landmarks 6 and 7, robot 1, and
-/// a barcode that nobody bears.
+/// Robot 2 drives ahead for a second, stands, and turns on the spot. It sees landmarks 6 and 7, robot 1, and a
+/// barcode that belongs to nothing.
 Files mrclam_files();
 
-/// Three motions of a metre, landmark 10 seen from poses 0 and 2, landmark 11 from pose 5.
+/// Three motions of a metre. Landmark 10 is seen from poses 0 and 2, landmark 11 from pose 5.
 Files isam_files();
 
-/// The same, as g2o has it.
+/// The same log in the format of g2o.
 Files g2o_files();
 
-/// The same without noise: the truth of isam_files().
+/// The same log without noise: the truth of isam_files().
 Files true_isam_files();
 
-/// Two steps; three observations and one below zero.
+/// Two steps; three valid observations and one with a negative value.
 Files freiburg_files();
 
 /// A car that drives straight and then to the left; five trees in two scans.

@@ -1,7 +1,10 @@
-// What each reader makes of a small log by hand.
+// What each reader gives for a small log made by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -105,7 +108,7 @@ TEST(MrclamLog, HasNoTruthInGapsAndStartsAtTheTruth) {
   const std::vector<Event> events = read_all(*log);
   ASSERT_TRUE(scan(events[1]).truth);
   EXPECT_NEAR(scan(events[1]).truth->T_world_robot.x, 0.25, 1e-9);
-  EXPECT_FALSE(odometry(events[2]).truth);  // 0.5 s lies between rows 0.6 s apart
+  EXPECT_FALSE(odometry(events[2]).truth);  // 0.5 s is between rows that are 0.6 s apart
   ASSERT_TRUE(scan(events[6]).truth);
   EXPECT_NEAR(scan(events[6]).truth->T_world_robot.theta, 0.25, 1e-9);
 }
@@ -132,7 +135,7 @@ TEST_P(Graph, IsTheSameStreamInBothFormats) {
   EXPECT_NEAR(seen.bearing, std::atan2(-1.0, 1.0), 1e-12);
 }
 
-// By hand: the end looks to the left, so what is ahead of it is to the left of the beginning.
+// By hand: the robot faces left at the end of the motion, so a point ahead of it is to the left of the start.
 TEST(G2oGraph, HasTheErrorsOfAMotionInTheFrameOfItsEnd) {
   const TemporaryFolder folder;
   const auto log = open(folder, {{"graph.g2o", "EDGE_SE2 0 1 2 1 1.5707963267948966 1 0 0 4 0 9\n"}});
@@ -145,12 +148,12 @@ TEST_P(Graph, TurnsPointsIntoRangesAndBearingsWithTheirCovariance) {
   const TemporaryFolder folder;
   const auto log = open(folder, GetParam());
   const std::vector<Event> events = read_all(*log);
-  // A round covariance of 0.01 m^2 stays round across the range of 2 sqrt(2) m.
+  // A round covariance of 0.01 m^2 stays round at the range of 2 sqrt(2) m.
   const seif::Observation& round = scan(events[0]).scan.observations.front();
   EXPECT_NEAR(round.covariance(0, 0), 0.01, 1e-12);
   EXPECT_NEAR(round.covariance(1, 1), 0.01 / 8.0, 1e-12);
   EXPECT_NEAR(round.covariance(0, 1), 0.0, 1e-12);
-  // Back to the point it is what stood in the log: its information is [100 20; 20 29].
+  // Converted back to a point it is the value in the log: its information is [100 20; 20 29].
   const seif::Observation& seen = scan(events[5]).scan.observations.front();
   const double c = std::cos(seen.bearing);
   const double s = std::sin(seen.bearing);
@@ -201,7 +204,7 @@ TEST(VictoriaParkLog, DrivesAsTheCarDoesAndNamesNoTree) {
   for (const seif::Observation& tree : scan(events[1]).scan.observations)
     EXPECT_EQ(tree.landmark, seif::no_landmark);
   EXPECT_EQ(scan(events[4]).scan.observations.size(), 3U);
-  // To the left the rear left wheel is on the inner circle: of radius L / tan(steering) - H.
+  // In a turn to the left, the rear left wheel is on the inner circle, whose radius is L / tan(steering) - H.
   const double steering = 0.3;
   const double radius = 2.83 / std::tan(steering);
   const VelocityRow left = car_velocity(0.0, 2.0, steering);
@@ -241,7 +244,7 @@ TEST(LogNoise, ReplacesWhatStandsInALog) {
   const auto log = open(folder, isam_files(), choice);
   const std::vector<Event> events = read_all(*log);
   EXPECT_NEAR(scan(events[0]).scan.observations.front().covariance(0, 0), 0.25, 1e-12);
-  EXPECT_NEAR(odometry(events[2]).odometry.covariance(2, 2), 1e-4, 1e-12);  // not told: as it was
+  EXPECT_NEAR(odometry(events[2]).odometry.covariance(2, 2), 1e-4, 1e-12);  // not given: unchanged
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-// `seifbed replay` and `calibrate` on logs of other formats, as people call them.
+// `seifbed replay` and `calibrate` on logs in other formats, on the command line.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "harness/command_call.hpp"
 #include "harness/fixtures.hpp"

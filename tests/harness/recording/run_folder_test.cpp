@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 

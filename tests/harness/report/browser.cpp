@@ -31,8 +31,8 @@ std::optional<std::string> find_browser(const TemporaryFolder& folder) {
 std::string look_at(const TemporaryFolder& folder, const std::string& browser,
                     const std::filesystem::path& page, const std::string& script, const Screen& screen) {
   std::string html = read_file(page);
-  // A page with a frame that is still being written has not been loaded yet, and what is dumped is a loaded
-  // page: it waits for the script in real time. In virtual time, frames may never come.
+  // The dump has to wait until the page is loaded, and a page with a frame that is still being written does not
+  // count as loaded. So the page waits for the script in real time. In virtual time, frames may never come.
   html.insert(html.rfind("</body>"),
               fmt::format(R"(<pre id="looked"></pre><iframe id="looking" hidden></iframe><script>
 const looking = document.getElementById("looking").contentDocument;

@@ -1,7 +1,10 @@
-// `seifbed report` as people call it, and its pages as a browser shows them.
+// `seifbed report` on the command line, and its pages in a browser.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "browser.hpp"
 #include "harness/command_call.hpp"
@@ -177,7 +180,7 @@ TEST_F(ReportInBrowser, FitsOnAPhone) {
     result.page = document.documentElement.scrollWidth;
     result.window = window.innerWidth;
     result.canvas = Math.max(...charts.map((chart) => chart.width));)",
-                                   {.width = 500});  // the narrowest that the browser makes its window
+                                   {.width = 500});  // the browser's narrowest window
   EXPECT_LE(seen["page"], seen["window"]);
   EXPECT_LE(seen["canvas"], seen["window"]);
 }

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"
@@ -13,7 +15,7 @@
 namespace harness {
 namespace {
 
-/// A run that did not move, with a map of `landmarks` in a row, each 0.1 m beside where it is.
+/// A run of a robot that did not move, with a map of `landmarks` in a row, each with an error of 0.1 m.
 class FiguresOfRun : public testing::Test {
  protected:
   void write(int landmarks) const {

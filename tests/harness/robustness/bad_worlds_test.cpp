@@ -1,4 +1,5 @@
-// World files with one mistake each: one message that says where and what, soon, and in little memory.
+// World files with one mistake each. Each gives one message that says where and what, soon, and with little
+// memory.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"
@@ -18,8 +20,8 @@ namespace {
 struct BadWorld {
   const char* name;
   std::string text;
-  const char* where;    // line:column, or nothing where it is about the file as a whole
-  const char* message;  // part of it
+  const char* where;    // line:column; empty if the message is about the whole file
+  const char* message;  // a part of the message
 };
 
 void PrintTo(const BadWorld& bad, std::ostream* out) { *out << bad.name; }
@@ -30,7 +32,7 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
-/// Each line stands for nine of the line before.
+/// Each line refers nine times to the line before.
 std::string billion_laughs() {
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
@@ -216,8 +218,8 @@ std::vector<BadWorld> bad_worlds() {
   return all;
 }
 
-/// One line that says it, with code 2, in less than a second of the processor and 200 MB. (What a process had
-/// before it became another counts too: this one must stay small.)
+/// Expects one line with the message, exit code 2, less than a second of processor time and less than 200 MB.
+/// (The memory that a process had before exec counts too, so this test program must stay small.)
 void expect_refused(const TemporaryFolder& folder, const std::string& start, const std::string& message) {
   test::Process process(folder.path(), {"run", "world.yaml", "--out", "out"});
   const test::Ended ended = process.wait();
@@ -272,7 +274,7 @@ TEST(BadWorldFiles, LinksInACircleAreRefused) {
 TEST(BadWorldFiles, WhatCannotBeReadIsRefused) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/proc/self/mem",
-                                  folder / "world.yaml");  // not even by root, from its start
+                                  folder / "world.yaml");  // then not even root can read its start
   expect_refused(folder, "world.yaml: ", "the file cannot be read");
 }
 

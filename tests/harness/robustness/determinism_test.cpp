@@ -1,6 +1,6 @@
-// The same world, seed and build give the same bits: in processes of their own, beside others, with and
-// without what follows a run. Twice in one process: run_test. Whatever the jobs of a sweep and of a
-// comparison: sweep_command_test, command_line_test. A film live and from the folder: film_test.
+// The same world, seed and build give the same bits: in separate processes, beside other processes, and with or
+// without a recorder. Other cases are in other tests: two runs in one process in run_test, the number of jobs
+// of a sweep or comparison in sweep_command_test and command_line_test, live and recorded films in film_test.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -22,7 +22,8 @@ namespace {
 using test::call;
 using test::read_file;
 
-/// Something of everything: physics with contacts, chance, every filter that draws nothing, faults.
+/// A world with something of everything: physics with contacts, random numbers, every filter that draws none,
+/// faults.
 constexpr const char* world_text =
     "name: small\n"
     "duration_s: 25\n"
@@ -36,7 +37,7 @@ constexpr const char* world_text =
     "  - {kind: kidnapping, at_s: 15, x_m: -3, y_m: -2, heading_deg: 10}\n"
     "estimators: {ekf: {}, seif: {}, seif_report: {}, eseif: {}}\n";
 
-/// What a run wrote, but for times: those files, and the summary.
+/// The files of a run that contain no times, and its summary without times.
 std::map<std::string, std::string> bytes_of(const std::filesystem::path& run) {
   std::map<std::string, std::string> bytes;
   for (const auto& entry : std::filesystem::directory_iterator(run)) {
@@ -72,7 +73,7 @@ TEST_F(Determinism, TwoProcessesGiveTheSameBytes) {
 }
 
 TEST_F(Determinism, ThePlaceInMemoryAndTheEnvironmentDoNotMatter) {
-  const std::string padding(10'000, 'x');  // moves the stack
+  const std::string padding(10'000, 'x');  // shifts the stack
   EXPECT_EQ(call(folder_, "run world.yaml --quiet --out padded",
                  "PADDING=" + padding + " LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo MALLOC_PERTURB_=165")
                 .exit_code,
@@ -80,7 +81,7 @@ TEST_F(Determinism, ThePlaceInMemoryAndTheEnvironmentDoNotMatter) {
   expect_the_same("padded");
 }
 
-// Threads that burn time, and three more runs beside it.
+// With busy threads, and three more runs at the same time.
 TEST_F(Determinism, AMachineUnderLoadGivesTheSameBytes) {
   std::atomic<bool> done = false;
   std::vector<std::jthread> burners;
@@ -114,7 +115,7 @@ TEST_F(Determinism, AFilmBesideItChangesNothing) {
   }
 }
 
-/// Keeps the last pose of each estimator.
+/// Stores the last pose of each estimator.
 class LastPoses final : public RunListener {
  public:
   void odometry(const OdometryEvent&) override {}
@@ -125,7 +126,7 @@ class LastPoses final : public RunListener {
   std::map<std::size_t, seif::Pose2> poses;
 };
 
-// A loop that nobody records comes to the same estimates.
+// A loop without a recorder gives the same estimates.
 TEST(DeterminismOfALoop, WithoutARecordIsThatWithOne) {
   worlds::World world = test::small_world();
   world.estimators = {test::choice("ekf"), test::choice("seif")};

@@ -1,4 +1,4 @@
-// The running test of innovations: silent for right filters, soon for wrong ones.
+// The running test of innovations gives no alarm for consistent filters, and an early one for wrong filters.
 #include "harness/statistics/divergence.hpp"
 
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@
 namespace harness {
 namespace {
 
-/// v' S^-1 v of a filter whose innovations are `factor` times as large as it believes.
+/// Draws v' S^-1 v of a filter whose innovations are `factor` times as large as it believes.
 double drawn(std::mt19937_64& random, int degrees, double factor) {
   return factor * factor * std::chi_squared_distribution<double>(degrees)(random);
 }
 
-// Quantiles of the chi-square distribution, from Boost. With few degrees of freedom the approximation is on
-// the safe side.
+// Quantiles of the chi-square distribution, computed with Boost. For few degrees of freedom the approximation
+// is on the safe side.
 TEST(Divergence, TheBoundIsTheChiSquareQuantile) {
   const std::map<int, double> quantiles = {
       {2, 41.4465}, {10, 62.9455}, {20, 83.4791}, {40, 118.6825}, {400, 593.5935}};  // at 1 - 1e-9
@@ -60,7 +60,7 @@ TEST(Divergence, WhatIsNoNumberFires) {
   EXPECT_TRUE(test.fired_t());
 }
 
-// One misread landmark that the gate keeps out is no divergence; a gate that keeps nearly all out is.
+// A single misread landmark that the gate rejects is no divergence; a gate that rejects almost everything is.
 TEST(Divergence, AGateThatShutsTheWorldOutFires) {
   std::mt19937_64 random(7);
   InnovationTest one;

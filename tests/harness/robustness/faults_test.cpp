@@ -1,4 +1,4 @@
-// What is left when something goes wrong in the middle of a run.
+// What remains when something fails in the middle of a run.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -38,7 +38,7 @@ class Faults : public testing::Test {
 
   void run_whole() { ASSERT_EQ(call(folder_, "run world.yaml --quiet --out whole").exit_code, 0); }
 
-  /// All but what was measured with a clock.
+  /// Compares everything except times.
   void expect_as_whole(const fs::path& run) const {
     std::size_t files = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "whole")) {
@@ -55,7 +55,7 @@ class Faults : public testing::Test {
     EXPECT_EQ(hash_of(run), hash_of(folder_ / "whole"));
   }
 
-  /// Scores and films what is there, and completes it.
+  /// Scores and films the existing part, and then completes the run.
   void expect_useful(const std::string& run) {
     const Called scored = call(folder_, "score " + run + " --json");
     EXPECT_EQ(scored.exit_code, 0) << scored.errors;
@@ -72,7 +72,7 @@ class Faults : public testing::Test {
     expect_as_whole(folder_ / run);
   }
 
-  /// Waits until the run is on its way.
+  /// Waits until the run has begun.
   void await_record(const std::string& run) const {
     while (!fs::exists(folder_ / run / "ekf_consistency.csv"))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -93,7 +93,7 @@ TEST_F(Faults, AKillAtAnyMomentLeavesARunThatIsScoredFilmedAndCompleted) {
     std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(0, 400)(random)));
     process.signal(SIGKILL);
     static_cast<void>(process.wait());
-    if (!fs::exists(folder_ / run / "unfinished")) {  // it was faster
+    if (!fs::exists(folder_ / run / "unfinished")) {  // the run has ended already
       expect_as_whole(folder_ / run);
       continue;
     }
@@ -181,7 +181,7 @@ TEST_F(Faults, AFileThatMayNotGrowEndsTheRunWithAWordAndWhatThereIsIsGood) {
   expect_useful("limited");
 }
 
-/// A disk of this many bytes, where one may be mounted.
+/// A disk of this many bytes, if one can be mounted.
 class SmallDisk {
  public:
   SmallDisk(fs::path folder, int bytes) : folder_(std::move(folder)) {
@@ -236,7 +236,7 @@ TEST_F(Faults, AFilmHasItsNameWhenItIsWhole) {
 TEST_F(Faults, AnOutputFolderThatGoesAwayEndsTheRunWithAWord) {
   Process process(folder_.path(), {"run", "world.yaml", "--quiet", "--out", "gone"});
   await_record("gone");
-  // Taken away in one step: files made while it is emptied would keep the folder alive.
+  // Removed in one step: files that are made while the folder is emptied would keep it alive.
   fs::rename(folder_ / "gone", folder_ / "aside");
   fs::remove_all(folder_ / "aside");
   EXPECT_EQ(process.wait().exit_code, 1);

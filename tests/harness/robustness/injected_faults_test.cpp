@@ -1,10 +1,14 @@
-// Faults done on purpose: what the filters make of each, and what a run tells of it.
+// Injected faults: how the filters react to each, and what a run reports about it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "harness/fixtures.hpp"
@@ -67,7 +71,7 @@ TEST(InjectedFaults, WithoutAnyNothingIsTold) {
     EXPECT_FALSE(score.diverged_nees_t) << score.name;
     EXPECT_GT(score.worst_nis, 0.0) << score.name;
   }
-  EXPECT_EQ(LogStream(folder / "run").description().max_range, 8.0);  // by which a replay leaves out the same
+  EXPECT_EQ(LogStream(folder / "run").description().max_range, 8.0);  // so a replay ignores the same ones
   const std::string board = scoreboard(result.summary);
   EXPECT_EQ(board.find("diverged"), std::string::npos);
   EXPECT_EQ(board.find("Not given"), std::string::npos);
@@ -140,7 +144,7 @@ TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {
     EXPECT_GE(*score.diverged_t, at) << score.name;
     EXPECT_LE(*score.diverged_t, at + 2.5) << score.name;
   }
-  // Half a turn of a wheel of 0.1 m on a track of 0.4 m, in one increment of the recorded odometry.
+  // Half a turn of a wheel of 0.1 m with a track of 0.4 m, in one increment of the recorded odometry.
   LogStream log(folder / "run");
   double largest_turn = 0.0;
   for (Event event; log.next(event);) {
@@ -185,14 +189,14 @@ TEST(Silence, OfTheLandmarkSensorIsAGapThatRightFiltersBridge) {
   }
 }
 
-// The encoders count on: the first increment after the gap holds all of it.
+// The encoders go on counting: the first increment after the gap contains everything.
 TEST(Silence, OfTheEncodersEndsWithOneLongIncrement) {
   const TemporaryFolder folder;
   Fault silence{.kind = FaultKind::silence, .at = at, .sensor = worlds::FaultySensor::encoders, .to = {}};
   silence.duration = 1.0;
   run_live(world_with({silence}), folder / "run");
   const std::vector<double> increments = times_in<OdometryEvent>(folder / "run");
-  EXPECT_EQ(increments.size(), 580U);  // 20 Hz, less one second
+  EXPECT_EQ(increments.size(), 580U);  // 20 Hz, without one second
   const RunResult whole = run_live(world_with({}), folder / "whole");
   EXPECT_EQ(read_file(folder / "run" / "truth.tum").substr(0, 1000),
             read_file(folder / "whole" / "truth.tum").substr(0, 1000));

@@ -1,4 +1,4 @@
-// The program as a process of its own: measured, and killed at will.
+// Runs the program as a separate process, which can be measured, and killed at any time.
 #pragma once
 
 #include <sys/types.h>
@@ -11,11 +11,11 @@ namespace harness::test {
 
 struct Ended {
   int exit_code = 0;         // -1: a signal ended it
-  double cpu_seconds = 0.0;  // [s] of all its threads
+  double cpu_seconds = 0.0;  // [s] over all threads
   double peak_bytes = 0.0;   // [byte] resident
 };
 
-/// `seifbed` with these arguments in a folder; what it prints goes to the files `output` and `errors` there.
+/// `seifbed` with these arguments in a folder. Its output goes to the files `output` and `errors` there.
 class Process {
  public:
   Process(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
@@ -30,7 +30,7 @@ class Process {
   pid_t process_ = -1;
 };
 
-/// Whether this is built with the address sanitizer, which takes memory and time of its own.
+/// Whether this program is built with the address sanitizer, which needs additional memory and time.
 bool is_sanitized();
 
 }  // namespace harness::test

@@ -1,9 +1,13 @@
-// Filters whose numbers go wrong: they are told, and taken out where they are of no use any more.
+// Filters with numerical failures: each failure is reported, and a filter that is of no more use is stopped.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/scoreboard.hpp"
@@ -13,7 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Stands still with one landmark, until something goes wrong at its tenth scan.
+/// Stands still with one landmark, until a failure at its tenth scan.
 class Failing final : public seif::Estimator {
  public:
   enum class How { nan_pose, nan_landmark, no_gaussian, not_definite };
@@ -65,7 +69,7 @@ RunResult run_failing(Failing::How how, const std::filesystem::path& folder) {
 
 class NumericalFault : public testing::Test {
  protected:
-  /// It is the last of three; the others go on.
+  /// This filter is the last of three; the other ones continue.
   void run(Failing::How how) {
     result_ = run_failing(how, folder_ / "run");
     EXPECT_EQ(result_.summary.failures.at(0), "");

@@ -1,7 +1,8 @@
-// No file that is read chooses where something is written, or what is executed.
+// No input file can choose where something is written, or what is executed.
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "harness/command_call.hpp"

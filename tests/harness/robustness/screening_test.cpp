@@ -1,4 +1,4 @@
-// The door of the estimators: what is left out, and what is not.
+// Screening before the estimators: which measurements are ignored, and which are not.
 #include "harness/stream/screening.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,10 @@
-// The live path allocates nothing once the robot knows its way: physics, sensing, estimation, recording.
+// The live path (physics, sensing, estimation, recording) allocates nothing once the robot knows its way.
 
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <string>
+#include <vector>
 
 #include "allocation_counter.hpp"
 #include "harness/fixtures.hpp"
@@ -24,7 +28,7 @@ TEST_P(LiveLoopIn, AllocatesNothingFromTheThirdRoundOn) {
   worlds::World world = test::small_world();  // a round takes about 40 s
   world.physics.engine = GetParam();
   world.duration = 240.0;
-  world.scoring.interval = 1e6;  // scoring is off the live path
+  world.scoring.interval = 1e6;  // scoring is not on the live path
   world.estimators = {test::choice("seif_report")};
 
   Believers believers;

@@ -1,8 +1,10 @@
-// Runs whose observations name no landmark: recorded, replayed and scored.
+// Runs in which observations name no landmark: recorded, replayed and scored.
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -107,7 +109,7 @@ TEST(NamelessRun, IsReplayedToTheSameBytes) {
     EXPECT_EQ(read_file(folder / "replay" / file), read_file(folder / "live" / file)) << file;
 }
 
-// What the sensor reads is not looked at, so nothing is lost where it is wrong.
+// The ids that the sensor reads are not used, so wrong ones do no harm.
 TEST(NamelessRun, AnAssociationDoesNotBelieveWhatIsMisread) {
   const TemporaryFolder folder;
   worlds::World world = nameless_world();

@@ -1,4 +1,4 @@
-// An estimator of one's own, from the class to the world file that names it: an example to start from.
+// An example of your own estimator, from the class to the world file that names it.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,11 @@
 
 namespace {
 
-/// Odometry alone: chains the increments and lets their noise widen the covariance of the pose. Has no map.
+/// Odometry alone: it chains the increments, and their noise enlarges the covariance of the pose. It has no
+/// map.
 class OdometryAlone final : public seif::Estimator {
  public:
-  /// `noise_factor`: standard deviations that are believed, over those that the encoders tell.
+  /// `noise_factor`: standard deviations that the filter assumes, divided by those that the encoders report.
   OdometryAlone(const seif::EstimatorSetup& setup, double noise_factor)
       : belief_(setup.start), noise_factor_(noise_factor) {}
 
@@ -36,7 +37,7 @@ class OdometryAlone final : public seif::Estimator {
     ++blocks_touched_;
   }
 
-  /// A filter that maps would take the observations in here, and report each stage that it has.
+  /// A filter with a map would process the observations here, and report each of its stages.
   void measurement_update(const seif::Scan&, const seif::StageDone& done) override {
     done(seif::Stage::measurement);
   }
@@ -47,7 +48,7 @@ class OdometryAlone final : public seif::Estimator {
   std::size_t memory_bytes() const override { return sizeof *this; }
   std::vector<seif::LandmarkEstimate> map() const override { return {}; }
   std::optional<seif::MarginalCovariances> marginal_covariances(
-      std::span<const seif::LandmarkId>) const override {  // none can be asked for: the map is empty
+      std::span<const seif::LandmarkId>) const override {  // always empty: there is no map
     return seif::MarginalCovariances{.pose = belief_.covariance, .landmarks = {}};
   }
 
@@ -73,7 +74,7 @@ seif::EstimatorType odometry_alone() {
           }};
 }
 
-/// What harness/commands/main.cpp would do.
+/// The registry as harness/commands/main.cpp would make it.
 seif::Registry own_registry() {
   seif::Registry registry = seif::standard_estimators();
   registry.add(odometry_alone());
@@ -85,7 +86,7 @@ seif::Registry own_registry() {
 namespace harness {
 namespace {
 
-/// A square of 4 m with landmarks about it, in a world file that names the estimator twice.
+/// A square of 4 m with landmarks around it, in a world file that names the estimator twice.
 const char* const world_file =
     "name: mine\n"
     "duration_s: 20\n"
@@ -113,7 +114,7 @@ TEST(OwnEstimator, IsUsedByAWorldFileUnderItsNameAndScored) {
   EXPECT_GT(own.trajectory.rmse.value(), 0.0);
   EXPECT_EQ(test::read_file(folder / "run" / "odometry_alone.tum"),
             test::read_file(folder / "run" / "odometry.tum"));  // the harness's own dead reckoning
-  // The option came through: what is believed to be ten times surer has a larger NEES.
+  // The option had an effect: a belief that is ten times more certain has a larger NEES.
   EXPECT_GT(result.summary.score.estimators[1].nees_pose_final.value(), own.nees_pose_final.value());
 }
 
@@ -134,7 +135,7 @@ TEST(OwnEstimator, IsAsSureAsItMayBeWithCalibratedEncoders) {
     const TemporaryFolder folder;
     worlds::World world = load(folder, world_file).world.value();
     world.seed = seed;
-    world.landmark_sensor.max_range = 0.5;  // it looks at nothing
+    world.landmark_sensor.max_range = 0.5;  // the sensor sees nothing
     sum += test::run_live(world, folder / "run", own_registry())
                .summary.score.estimators[0]
                .nees_pose_final.value();

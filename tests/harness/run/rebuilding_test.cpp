@@ -1,16 +1,20 @@
-// What a replay rebuilds, with filters whose beliefs are told by hand.
+// What a replay rebuilds, with filters whose beliefs are set by hand.
 #include "harness/run/rebuilding.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace harness {
 namespace {
 
-/// At the origin, with a landmark 2 m ahead, and one 3 m to the left.
+/// A filter that believes itself at the origin, with a landmark 2 m ahead, and one 3 m to the left.
 class Told final : public seif::Estimator {
  public:
   void motion_update(const seif::Odometry&) override {}
@@ -88,11 +92,11 @@ TEST_F(Rebuilt, NisIsOfTheScanAfterAScoringTimeAndOfKnownLandmarks) {
   EXPECT_NEAR(*score.nis_inside, 1.0 / 3, 1e-12) << "the band is 0.025 to 3.69";
 }
 
-// Of landmarks 4 and 5, seen 0.2 m too far and at 0.1 rad and 0 more than expected. In S the ranges have
-// variances of 0.04 and covariance 0 (they point along x and y). A bearing of landmark 4 turns by
-// -theta - y / 2 + m_y / 2, of landmark 5 by -theta + x / 3 - m_x / 3: variances 0.05 and
-// 0.04 + 0.02 / 9 + 0.005, covariance 0.04. Range 4 against bearing 5: -x of the robot and x / 3, so
-// -0.01 / 3; range 5 against bearing 4: -y and -y / 2, so 0.005.
+// Landmarks 4 and 5 are seen 0.2 m too far, and at bearings 0.1 rad and 0 larger than expected. In S the ranges
+// have variances of 0.04 and covariance 0 (they point along x and y). The bearing of landmark 4 changes by
+// -theta - y / 2 + m_y / 2, that of landmark 5 by -theta + x / 3 - m_x / 3: variances 0.05 and 0.04 + 0.02 / 9
+// + 0.005, covariance 0.04. Range 4 and bearing 5: -x of the robot and x / 3, so -0.01 / 3. Range 5 and bearing
+// 4: -y and -y / 2, so 0.005.
 TEST_F(Rebuilt, NisOfAScanMatchesTheHandComputedCase) {
   RebuiltConsistency rebuilt(believers, log, 10);
   rebuilt.scored();
@@ -117,8 +121,8 @@ TEST_F(Rebuilt, NisIsNotOfAFilterThatHasFailed) {
   EXPECT_FALSE(rebuilt.scores().at(0).nis);
 }
 
-// Variances as seen from the robot: of landmark 4 diag(0.02, 0.02 + 4 * 0.04), its error (0, -0.3); of 5
-// diag(0.02 + 9 * 0.04, 0.02), its error (-0.1, 0).
+// Variances as seen from the robot: landmark 4 has diag(0.02, 0.02 + 4 * 0.04) and the error (0, -0.3);
+// landmark 5 has diag(0.02 + 9 * 0.04, 0.02) and the error (-0.1, 0).
 TEST_F(Rebuilt, NeesFromRobotMatchesTheHandComputedCase) {
   RebuiltConsistency rebuilt(believers, log, 10);
   rebuilt.odometry({{}, TruePose{}});
@@ -126,7 +130,7 @@ TEST_F(Rebuilt, NeesFromRobotMatchesTheHandComputedCase) {
   const double first = (0.09 / 0.18 / 2 + 0.01 / 0.38 / 2) / 2;
   EXPECT_NEAR(*rebuilt.scores().at(0).nees_landmark_from_robot, first, 1e-12);
   EXPECT_EQ(rebuilt.scores().at(0).landmarks_from_robot_inside, 0.5) << "the second is below 0.025";
-  // A robot that is 0.6 m to the left of where the filter believes: errors (0, 0.3) and (-0.1, 0.6).
+  // The robot is 0.6 m to the left of its believed position: errors (0, 0.3) and (-0.1, 0.6).
   rebuilt.odometry({{}, TruePose{0, {0.0, 0.6, 0.0}, 0, 0}});
   rebuilt.consistency(0, {});
   const double second = (0.09 / 0.18 / 2 + (0.01 / 0.38 + 0.36 / 0.02) / 2) / 2;

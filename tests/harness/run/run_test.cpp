@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <system_error>
+#include <variant>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/score/scoreboard.hpp"
@@ -92,7 +98,7 @@ TEST(Run, AnEstimatorThatNeedsNamesIsRefusedWhereThereAreNone) {
   }
 }
 
-// Scored like any other, the same each time, and a replay gives what the live run gave.
+// It is scored like any other run, each time the same, and a replay gives the estimates of the live run.
 TEST(Run, InTheKinematicEngineIsARunLikeAnyOther) {
   const TemporaryFolder folder;
   worlds::World world = small_world();
@@ -294,8 +300,8 @@ TEST(SimulatedStream, EventsComeAtTheirRatesWithOdometryFirst) {
   EXPECT_EQ(scans.back(), 2.0);
 }
 
-// Encoders without error, read at every step, reckon the very pose: the engine's arcs are those of the
-// encoders' model, written down apart from each other.
+// Encoders without error, read at every step, give exactly the simulated pose: the arcs of the engine and of
+// the encoders' model are implemented separately.
 TEST(SimulatedStream, KinematicMotionIsWhatPerfectEncodersReckon) {
   worlds::World world = small_world();
   world.physics.engine = worlds::Engine::kinematic;

@@ -1,8 +1,9 @@
-// The parts of the detailed scores against values by hand.
+// The parts of the detailed scores, against values computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "harness/score/loop_closure.hpp"
 #include "harness/score/map_counts.hpp"
@@ -20,7 +21,8 @@ using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 TEST(PairsApart, AreTheNearestWithinATenth) {
   const std::vector<double> values = {0.0, 0.95, 1.02, 1.5, 2.06, 2.3};
-  // 0 wants 1: 1.02. 0.95 wants 1.95: 2.06 is too far. 1.02 wants 2.02: 2.06. 1.5 wants 2.5: 2.3 is too far.
+  // The value for 0 should be 1: 1.02 is near enough. For 0.95 it should be 1.95: 2.06 is too far. For 1.02 it
+  // should be 2.02: 2.06. For 1.5 it should be 2.5: 2.3 is too far.
   EXPECT_EQ(pairs_apart(values, 1.0), (Pairs{{0, 2}, {2, 4}}));
   EXPECT_EQ(pairs_apart({}, 1.0), Pairs{});
 }
@@ -32,8 +34,8 @@ TEST(PairsApart, OfEqualValuesTheFirstCounts) {
   EXPECT_EQ(pairs_apart(at_the_end, 1.0), (Pairs{{0, 1}}));
 }
 
-// chi-square quantiles, 2.5 % and 97.5 %: of 2 degrees 0.0506 and 7.378, of 4 0.4844 and 11.143, of 6 1.2373
-// and 14.449.
+// Quantiles of the chi-square distribution at 2.5 % and 97.5 %: for 2 degrees of freedom 0.0506 and 7.378, for
+// 4 0.4844 and 11.143, for 6 1.2373 and 14.449.
 TEST(ScoreScans, EachScanHasItsDegreesOfFreedom) {
   const std::vector<ScanNis> scans = {{3.0, 2}, {3.0, 4}};  // 6 of 7.378, but 12 of 11.143
   const ScanNisScore score = score_scans(scans);
@@ -49,8 +51,8 @@ TEST(ScoreScans, OfNoneAreNothing) {
   EXPECT_FALSE(score.nis || score.band || score.inside);
 }
 
-/// One metre ahead, a turn on the spot, one metre to the left; believed to be 1.1 m, and 0.9 m, and to have
-/// turned by 0.2 too little.
+/// One metre ahead, a turn on the spot, one metre to the left. The estimates are 1.1 m, 0.9 m, and a turn that
+/// is too small by 0.2.
 std::vector<PosePair> corner() {
   const double turn = pi / 2 - 0.2;
   const seif::Pose2 est = seif::Pose2{1.1, 0, 0} * seif::Pose2{0, 0, turn} * seif::Pose2{0.9, 0, 0};
@@ -61,8 +63,8 @@ std::vector<PosePair> corner() {
 }
 
 TEST(RelativePoseErrorAlongPath, MatchesTheHandComputedCase) {
-  // One metre apart are 0 and 1 (0.1 m too far), 1 and 3 (the way is the second metre), 2 and 3 (0.1 m
-  // short). Seen from 1, the truth went (0, 1) and the estimate 0.9 (cos, sin)(pi/2 - 0.2).
+  // Pairs one metre apart: 0 and 1 (0.1 m too far), 1 and 3 (the path between them is the second metre), 2 and
+  // 3 (0.1 m too short). Seen from 1, the truth went (0, 1) and the estimate 0.9 (cos, sin)(pi/2 - 0.2).
   const double aside = 0.9 * std::sin(0.2);
   const double ahead = 0.9 * std::cos(0.2) - 1.0;
   const RelativePoseError error = relative_pose_error_along_path(corner(), 1.0);
@@ -73,20 +75,20 @@ TEST(RelativePoseErrorAlongPath, MatchesTheHandComputedCase) {
 }
 
 TEST(RmseFromRobot, LeavesOutWhatRobotAndMapShare) {
-  // The whole map and the robot turned and moved alike: nothing is wrong as seen from the robot.
+  // The whole map and the robot are turned and moved together: seen from the robot, there is no error.
   const seif::Pose2 T{3, -2, 0.7};
   const seif::Pose2 true_pose{1, 1, 0.3};
   std::vector<PointPair> points;
   for (const Eigen::Vector2d& p : {Eigen::Vector2d(1, 2), Eigen::Vector2d(-4, 5)})
     points.push_back({T * p, p});
   EXPECT_NEAR(*rmse_from_robot(points, {0, T * true_pose, true_pose}), 0.0, rounding);
-  // A robot that believes itself 0.3 m further on sees everything 0.3 m nearer.
+  // A robot that believes itself 0.3 m too far ahead sees everything 0.3 m too near.
   EXPECT_NEAR(*rmse_from_robot(points, {0, T * true_pose * seif::Pose2{0.3, 0, 0}, true_pose}), 0.3,
               rounding);
   EXPECT_FALSE(rmse_from_robot({}, {}));
 }
 
-/// A robot that turns by 0.2 rad at one sigma, and a landmark two metres ahead of it.
+/// A robot whose heading has a sigma of 0.2 rad, and a landmark two metres ahead of it.
 Eigen::Matrix<double, 5, 5> independent() {
   return Eigen::Matrix<double, 5, 1>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
 }
@@ -99,8 +101,8 @@ TEST(NeesFromRobot, MatchesTheHandComputedCase) {
 }
 
 TEST(NeesFromRobot, TheHeadingAloneMovesWhatIsSeen) {
-  // Believed to look to the north, the robot has the landmark three metres to its right: by a turn of d it
-  // moves by 3 d along the robot's x.
+  // The robot believes that it looks north, with the landmark three metres to its right: a turn by d moves the
+  // landmark by 3 d along the robot's x.
   const PosePair pose{0, {1, 1, pi / 2}, {1, 1, pi / 2 + 0.1}};
   Eigen::Matrix<double, 5, 5> joint = independent();
   joint.diagonal() << 0, 0, 0.04, 1e-9, 1e-9;
@@ -113,7 +115,7 @@ TEST(NeesFromRobot, TheHeadingAloneMovesWhatIsSeen) {
 }
 
 TEST(NeesFromRobot, LeavesOutWhatRobotAndMapShare) {
-  // Robot and landmark move together by metres, and against each other by 0.1 m.
+  // Robot and landmark have errors of metres together, and of 0.1 m relative to each other.
   Eigen::Matrix<double, 5, 5> joint = Eigen::Matrix<double, 5, 5>::Zero();
   for (const int axis : {0, 1}) {
     joint(axis, axis) = 4;
@@ -145,7 +147,8 @@ TEST(ShareInside, CountsTheEdges) {
 TEST(CountLandmarks, MatchesTheHandComputedCase) {
   const std::vector<TrueLandmark> truth = {
       {1, {0, 0}, 0.1}, {2, {4, 0}, 0.1}, {3, {0, 4}, 0.1}, {5, {9, 9}, 0.1}};
-  // The map lies 10 m off, and knows 1 and 2. 7 stands on 2; 8 on 3, which the map does not have; 9 nowhere.
+  // The map is shifted by 10 m, and knows landmarks 1 and 2. Its entry 7 is at landmark 2, entry 8 at landmark
+  // 3, which the map does not have, and entry 9 at no landmark.
   const std::vector<MapRecord> map = {
       {1, {10, 0}, {}}, {2, {14, 0}, {}}, {7, {14.3, 0.3}, {}}, {8, {10, 4}, {}}, {9, {5, 5}, {}}};
   const MapCounts counts = count_landmarks(map, truth, {1, 2, 3});
@@ -157,8 +160,8 @@ TEST(CountLandmarks, MatchesTheHandComputedCase) {
 TEST(LoopClosures, AreReturnsAfterAnAbsence) {
   const std::vector<SeenScan> scans = {{0, {1, 2}}, {1, {2}},  {5, {3}},  {9, {3}}, {10, {1}},
                                        {11, {2}},   {21, {1}}, {30, {1}}, {41, {3}}};
-  // 1 returns after 10 s, 2 right behind it: one closure. At 21 s 1 is back after 11 s. At 30 s it was away
-  // for 9 s. At 41 s 3 is back after 32 s.
+  // Landmark 1 returns after 10 s, 2 shortly after it: one closure. At 21 s landmark 1 returns after 11 s. At
+  // 30 s it was away for only 9 s. At 41 s landmark 3 returns after 32 s.
   EXPECT_EQ(loop_closures(scans, 10.0), (std::vector<std::size_t>{4, 6, 8}));
   EXPECT_EQ(loop_closures(scans, 100.0), (std::vector<std::size_t>{}));
 }

@@ -5,7 +5,9 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "harness/statistics/alignment.hpp"
 
@@ -37,13 +39,14 @@ TEST(Alignment, PointsWithoutADirectionFixNoRotation) {
 }
 
 TEST(Alignment, NeverMirrors) {
-  // A mirror image would fit exactly. The best rotation is none, and leaves two of four points 2 m off.
+  // A mirror image would fit exactly. The best rotation is zero, and leaves errors of 2 m at two of four
+  // points.
   const std::vector<PointPair> points = {
       {{2, 0}, {2, 0}}, {{0, 1}, {0, -1}}, {{-2, 0}, {-2, 0}}, {{0, -1}, {0, 1}}};
   EXPECT_NEAR(*score_points(points).rmse_aligned, std::sqrt(2.0), score_rounding);
 }
 
-/// Two points, estimated 1 m too far apart: nothing but half a metre at each end remains after alignment.
+/// Two points, estimated 1 m too far apart: after alignment, only half a metre at each end remains.
 TEST(ScorePoints, MatchesTheHandComputedCase) {
   const std::vector<PointPair> points = {{{10, 5}, {0, 0}}, {{10, 8}, {2, 0}}};
   const PointScore score = score_points(points);
@@ -52,7 +55,7 @@ TEST(ScorePoints, MatchesTheHandComputedCase) {
   EXPECT_FALSE(score_points({}).rmse);
 }
 
-/// Along x at 1 m/s; the estimate drifts 0.1 m aside in each second.
+/// Drives along x at 1 m/s; the estimate drifts sideways by 0.1 m per second.
 std::vector<PosePair> drifting() {
   std::vector<PosePair> poses;
   for (int i = 0; i <= 10; ++i) poses.push_back({0.1 * i, {0.1 * i, 0.01 * i, 0.0}, {0.1 * i, 0.0, 0.0}});
@@ -62,7 +65,7 @@ std::vector<PosePair> drifting() {
 TEST(AbsoluteTrajectoryError, MatchesTheHandComputedCase) {
   // sum of (0.01 i)^2 over 0..10 is 385e-4.
   EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse, std::sqrt(385e-4 / 11.0), score_rounding);
-  // A straight line turned by atan(0.1) and 1/cos longer: after alignment 0.1 (sqrt(1.01) - 1) |i - 5| is
+  // A straight line, turned by atan(0.1) and longer by 1/cos: after alignment 0.1 (sqrt(1.01) - 1) |i - 5| is
   // left.
   const double left = 0.1 * (std::sqrt(1.01) - 1.0) * std::sqrt(10.0);
   EXPECT_NEAR(*absolute_trajectory_error(drifting()).rmse_aligned, left, score_rounding);
@@ -75,8 +78,7 @@ TEST(RelativePoseError, MatchesTheHandComputedCase) {
 }
 
 TEST(RelativePoseError, IsMeasuredInTheFrameOfTheRobot) {
-  // Straight ahead by 1 m in truth; believed to have turned by 0.2 afterwards. The global headings do not
-  // matter.
+  // The truth is 1 m straight ahead; the estimate turns by 0.2 afterwards. The global headings do not matter.
   const std::vector<PosePair> poses = {
       {0.0, {7, 7, 1.0}, {0, 0, pi / 2}},
       {1.0, seif::Pose2{7, 7, 1.0} * seif::Pose2{1, 0, 0.2}, {0, 1, pi / 2}}};
@@ -107,7 +109,8 @@ TEST(Nees, OfGaussianErrorsIsOnePerDegreeOfFreedom) {
     const Eigen::Vector3d white(normal(random), normal(random), normal(random));
     sum += *nees(Eigen::Vector3d(L * white), covariance);
   }
-  // A chi-square of 3 degrees, over 3, has variance 2/3: five standard errors of the mean.
+  // A chi-square variable of 3 degrees of freedom, divided by 3, has the variance 2/3. Five standard errors of
+  // the mean are allowed.
   EXPECT_NEAR(sum / count, 1.0, 5.0 * std::sqrt(2.0 / 3.0 / count));
 }
 

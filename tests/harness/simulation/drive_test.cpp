@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "sensors/random_stream.hpp"
 
@@ -16,7 +19,7 @@ constexpr double dt = 0.05;  // [s] between commands
 
 bool everything_is_clear(const Eigen::Vector2d&, double) { return true; }
 
-/// A robot that does at once what it is told.
+/// A robot that follows its command at once.
 struct KinematicRobot {
   double t = 0.0;
   seif::Pose2 pose;
@@ -66,7 +69,7 @@ TEST(Drive, FollowsWaypointsAndStopsAtTheLast) {
     robot.obey(drive);
     farthest = std::max(farthest, distance_to_path(robot.position(), whole));
   }
-  // Pure pursuit cuts a corner by less than its lookahead.
+  // Pure pursuit cuts a corner by less than the lookahead.
   EXPECT_LT(farthest, 0.6);
   EXPECT_LT((robot.position() - path.back()).norm(), 0.1);
   EXPECT_EQ(robot.last.v, 0.0);
@@ -86,7 +89,7 @@ TEST(Drive, GoesRoundAClosedPathAgainAndAgain) {
     robot.obey(drive);
     turned += seif::wrap_angle(std::atan2(robot.pose.y, robot.pose.x) - before);
   }
-  // 200 s at 0.6 m/s are 120 m, five times round, less what the corners cost and save.
+  // 200 s at 0.6 m/s are 120 m, five rounds, apart from the effect of the corners.
   EXPECT_GT(turned, 4.5 * 2.0 * pi);
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 

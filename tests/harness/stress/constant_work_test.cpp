@@ -1,6 +1,9 @@
-// Physics, sensing, estimation and recording do the same work in a large world as in a small one.
+// Physics, sensing, estimation and recording do the same work in a large world and in a small one.
 
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
 
 #include "allocation_counter.hpp"
 #include "harness/fixtures.hpp"
@@ -53,8 +56,8 @@ TEST(ConstantWork, FromAThousandLandmarksToFiftyThousand) {
   EXPECT_NEAR(large.blocks / small.blocks, 1.0, 0.1);
   EXPECT_GT(large.rays, 3.0);
   EXPECT_GT(large.blocks, 100.0);
-  // What is allocated at all is the growth of what has not met its largest case yet: in a large map, the
-  // messages of places that the robot has come by only once.
+  // The remaining allocations come from buffers that have not yet had their largest size: in a large map,
+  // messages of places that the robot has passed only once.
   EXPECT_LT(small.allocations, 0.5);
   EXPECT_LT(large.allocations, 0.5);
 }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"
@@ -59,7 +61,7 @@ TEST(Stress, RecordsWhatItMeasures) {
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
 }
 
-/// Where the robot was at first.
+/// The first position of the robot.
 Eigen::Vector2d start_of(const std::filesystem::path& run) {
   CsvReader reader(run / "truth.csv",
                    {.required = {"t", "x", "y", "theta"}, .optional = {"left_wheel", "right_wheel"}});

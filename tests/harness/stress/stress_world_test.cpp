@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/fixtures.hpp"

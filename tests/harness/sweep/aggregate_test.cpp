@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_writer.hpp"
@@ -16,7 +18,7 @@ EstimatorRow row(const std::string& name, double error, const std::string& failu
   return {name, failure, {{"error_m", std::to_string(error), error}, {"hash", "ab", {}}}, {}};
 }
 
-/// `a` and `b` in four runs. `b` failed in the third, and is 1, 3 and 5 more than `a` in the others.
+/// `a` and `b` in four runs. `b` failed in the third, and is larger than `a` by 1, 3 and 5 in the others.
 std::vector<std::vector<EstimatorRow>> example() {
   return {{row("a", 1.0), row("b", 2.0)},
           {row("a", 2.0), row("b", 5.0)},

@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"
@@ -49,7 +52,7 @@ TEST(DurableFile, HasItsNameWhenItIsCommittedAndNotBefore) {
   EXPECT_EQ(test::read_file(folder / "table.csv"), "new");
 }
 
-/// Writers of the same file are killed in the middle of it, again and again.
+/// Writers of the same file are killed in the middle of it, many times.
 TEST(DurableFile, IsWholeWhoeverIsKilled) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "0.json";

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "harness/comparison/seeds.hpp"
 #include "harness/files/bad_input.hpp"

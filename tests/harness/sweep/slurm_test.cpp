@@ -7,6 +7,8 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -52,7 +54,7 @@ TEST(Shell, WordsComeThroughAsTheyAre) {
   }
 }
 
-/// A Slurm with one node that is there for one test.
+/// A Slurm cluster of one node that exists during one test.
 class SlurmTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -63,7 +65,7 @@ class SlurmTest : public testing::Test {
     const Called called = call_program(folder, script + "start private");
     started = called.exit_code == 0;
     ASSERT_TRUE(started) << called.errors;
-    // A test that runs out of time is killed, and leaves no daemons then.
+    // When a test takes too long it is killed, and this watcher then removes the daemons.
     call_program(folder, "(setsid " + script + "watch private " + std::to_string(getpid()) +
                              " >private/watch.log 2>&1 </dev/null &)");
     test::write_file(folder / "world.yaml",
@@ -86,7 +88,7 @@ class SlurmTest : public testing::Test {
     return call_program(folder, "SLURM_CONF=$PWD/private/slurm.conf " + line);
   }
 
-  /// The same bytes as of a sweep that knows nothing of Slurm.
+  /// Expects the same bytes as from a sweep without Slurm.
   void expect_whole() const {
     EXPECT_EQ(call("sweep world.yaml --seeds 1..6 --jobs 2 --out here --quiet").exit_code, 0);
     for (const char* name : {"runs.csv", "aggregate.csv", "aggregate.json"}) {
@@ -134,7 +136,7 @@ TEST_F(SlurmTest, ATaskThatIsKilledIsSubmittedAgainByTheSameCall) {
   EXPECT_NE(differently.errors.find("divide the sweep by 3, and not by 4"), std::string::npos)
       << differently.errors;
 
-  // The second task runs the cells 1 and 4: it dies in the middle of the second.
+  // The second task runs cells 1 and 4: it dies in the middle of cell 4.
   ASSERT_TRUE(
       wait_until([&] { return std::filesystem::exists(folder / "there" / "cells" / "000001.json"); }));
   EXPECT_EQ(slurm("scancel --signal=KILL 1_2").exit_code, 0);

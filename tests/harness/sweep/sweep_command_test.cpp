@@ -1,4 +1,4 @@
-// `seifbed sweep` and `seifbed merge` as people call them, and as machines kill them.
+// `seifbed sweep` and `seifbed merge` on the command line, and when they are killed.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -38,7 +38,7 @@ void write_world(const TemporaryFolder& folder) {
       "estimators: {ekf: {}, seif_report: {}}\n");
 }
 
-/// The bytes of everything that no clock has measured.
+/// The bytes of all tables that contain no times.
 std::map<std::string, std::string> tables(const TemporaryFolder& folder, const std::string& sweep) {
   std::map<std::string, std::string> bytes;
   for (const char* name : {"runs.csv", "aggregate.csv", "aggregate.json", "sweep.json", "world.yaml"})
@@ -92,7 +92,7 @@ TEST(SweepCommand, ARunOfItIsTheRunOfThatSeed) {
   EXPECT_NE(runs.substr(row, runs.find('\n', row + 1) - row).find(hash), std::string::npos) << hash;
 }
 
-/// Without what a clock has measured.
+/// The summary without times.
 nlohmann::json without_times(nlohmann::json summary) {
   summary.erase("realtime_factor");
   for (nlohmann::json& estimator : summary["estimators"]) {
@@ -175,8 +175,8 @@ TEST(SweepCommand, ShardsMayShareAFolder) {
   EXPECT_EQ(differing(folder, "shared", one), none);
 }
 
-/// Begins the program, and kills it after a while: alone, or with its children. Whether it was killed before
-/// its end.
+/// Starts the program, and kills it after some time, alone or with its children. Returns whether it was killed
+/// before its end.
 bool begin_and_kill(const TemporaryFolder& folder, std::chrono::microseconds after, bool with_children) {
   const pid_t program = fork();
   if (program == 0) {

@@ -5,7 +5,12 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
@@ -17,7 +22,7 @@ namespace {
 using test::read_file;
 using test::write_file;
 
-/// Ends its whole process at the first scan, unless this file is there.
+/// Ends its whole process at the first scan, unless this file exists.
 class Fragile final : public seif::Estimator {
  public:
   explicit Fragile(std::string held_by) : held_by_(std::move(held_by)) {}

@@ -1,4 +1,4 @@
-// Drives without names: what ekf and seif make of them.
+// Drives whose observations name no landmark: the associations that ekf and seif find.
 #include "seif/association/associating_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
+#include <random>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -39,10 +42,10 @@ Scan nameless(Scan scan) {
   return scan;
 }
 
-/// What became of a drive, by the true names.
+/// The result of a drive, counted with the true names.
 struct Outcome {
   int named = 0, left_out = 0, wrong = 0;
-  std::map<LandmarkId, LandmarkId> true_of;  // by name: of its first observation
+  std::map<LandmarkId, LandmarkId> true_of;  // by the filter's name: true name of its first observation
 
   void add(const Scan& scan, std::span<const LandmarkId> names) {
     ASSERT_EQ(names.size(), scan.observations.size());
@@ -95,8 +98,8 @@ TEST_P(Associating, FindsEachLandmarkOfARingAgainAndAgain) {
   EXPECT_EQ(outcome.mapped(*filter).size(), static_cast<std::size_t>(landmarks));
 }
 
-// It moves the map with the pose, and where one lies on the other is as certain as before. Until a ring
-// closes, where levers are those of the means.
+// Another start moves the map together with the pose, and changes no relative certainty. This holds until a
+// ring closes: from then on levers are those of the means.
 TEST(AssociatingSeif, GivesTheSameNamesWhereverTheStartMayBe) {
   RingDrive drive(400, 1);
   EstimatorSetup uncertain = drive.setup();
@@ -159,7 +162,7 @@ TEST_P(Associating, WhatIsNotThereAnyMoreIsTakenOut) {
   EXPECT_EQ(filter->whole_belief_matrix().rows(), 3 + 2 * 54);
 }
 
-// With gates so narrow that landmarks are taken for new ones time and again.
+// The gates are so narrow that known landmarks are often taken for new ones.
 TEST_P(Associating, TwoThatAreOneAreMerged) {
   constexpr int landmarks = 40;
   RingDrive drive(landmarks, 4);
@@ -176,23 +179,24 @@ TEST_P(Associating, TwoThatAreOneAreMerged) {
   EXPECT_LE(filter->map().size(), landmarks + (names.size() - landmarks) / 4);
 }
 
-// The window with what hub and messages know, and how the others of the zone follow: by the inverse of all of
-// Omega.
+// The covariance of the window, with the information of hub and messages, and that of the other landmarks of
+// the zone. The reference is the inverse of all of Omega.
 TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
   RingDrive drive(120, 5);
   SeifOptions options;
-  options.tree.most_unknowns = 1'000'000;  // no groups: these are an approximation
+  options.tree.most_unknowns = 1'000'000;  // no groups, since groups are an approximation
   Seif filter(drive.setup(), options);
+  LocalBelief& belief = *filter.local_belief();
   int passive = 0;
   for (int step = 0; step < drive.steps_for_a_round() + 60; ++step) {
     drive.step(filter);
     if (step % 10 != 0) continue;
-    filter.begin_association(0.0);
+    belief.begin_association(0.0);
     std::vector<LandmarkId> ids;
-    filter.landmarks_at_hand(ids);
+    belief.landmarks_at_hand(ids);
     const auto n = static_cast<Eigen::Index>(3 + 2 * ids.size());
     Eigen::MatrixXd P(n, n);
-    filter.covariance_with(ids, P);
+    belief.covariance_with(ids, P);
     const Eigen::MatrixXd all = oracle::symmetric(full_Omega(filter.state())).inverse();
     Eigen::VectorXi rows(n);
     rows.head<3>() << 0, 1, 2;
@@ -207,7 +211,7 @@ TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
   EXPECT_GT(passive, 100) << "otherwise only the window was tested";
 }
 
-/// m_a = m_b by conditioning the joint Gaussian.
+/// Adds m_a = m_b; the reference conditions the joint Gaussian.
 class Equate : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Filters, Equate, testing::Values("ekf", "seif"),
                          [](const auto& filter) { return filter.param; });
@@ -237,7 +241,7 @@ TEST_P(Equate, ConditionsTheBelief) {
   const Eigen::VectorXd d = K * (before[1].mean - before[0].mean);
   const Pose2 pose = filter->pose();
 
-  filter->equate(ids[0], ids[1]);
+  filter->local_belief()->equate(ids[0], ids[1]);
   filter->measurement_update({drive.scan().t, {}}, ignore);
   std::vector<LandmarkEstimate> after;
   filter->landmarks(ids, after);
@@ -249,9 +253,9 @@ TEST_P(Equate, ConditionsTheBelief) {
   EXPECT_LT((P_after - (P - K * J * P)).norm(), 1e-6 * P.norm());
 }
 
-// As the rest of seif: the same work and no allocation in a map of any size.
+// Like the rest of seif: the same work in a map of any size, and no allocation.
 
-/// Counts what the filter itself allocates while it takes in motions and scans, for its tree may still grow.
+/// Counts the filter's own allocations during motions and scans, since its tree may still grow.
 class Metered final : public Estimator, public LocalBelief {
  public:
   Metered(const EstimatorSetup& setup, long& allocated)
@@ -306,7 +310,7 @@ class Metered final : public Estimator, public LocalBelief {
 
 constexpr double to_and_fro = 60.0;  // [m]
 
-/// Two uneven rows of trees: out along them, and then to and fro along the last part.
+/// Two uneven rows of trees. The robot drives out along them, and then to and fro along the last part.
 test::PathDrive drive_to_and_fro(double length, int rounds) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -321,8 +325,8 @@ test::PathDrive drive_to_and_fro(double length, int rounds) {
 
 struct Work {
   std::int64_t blocks = 0;         // the median of an update
-  long allocations = 0;            // but for those of the filter
-  long allocations_of_filter = 0;  // which is told the names
+  long allocations = 0;            // without those of the filter
+  long allocations_of_filter = 0;  // of the filter, which gets the names
 };
 
 Work work_at_the_end_of(double length) {
@@ -355,7 +359,7 @@ Work work_at_the_end_of(double length) {
   return work;
 }
 
-// The median: what the tree's zone costs where it moves depends on where the borders of leaves are.
+// The median, since the cost of moving the tree's zone depends on where the borders of leaves are.
 TEST(AssociatingSeif, WorksTheSameInAMapOfAnySizeAndAllocatesNothingOfItsOwn) {
   const Work small = work_at_the_end_of(500.0);
   const Work large = work_at_the_end_of(test::under_sanitizer ? 1000.0 : 4000.0);

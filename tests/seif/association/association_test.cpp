@@ -1,4 +1,4 @@
-// Gates, pairs, places: what naming observations is made of.
+// The parts of data association: gates, pairs, places.
 #include "seif/association/association.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -23,8 +24,8 @@ TEST(ChiSquareGate, IsThatOfTheTables) {
   EXPECT_NEAR(chi_square_gate(50, 0.01), 135.807, 1e-3);
 }
 
-/// Landmarks on a line of which the sensor tells x and y, by a robot that knows its heading but not where on
-/// the line it is.
+/// Landmarks on a line, whose x and y the sensor measures, and a robot that knows its heading but not its
+/// position on the line.
 struct Line {
   explicit Line(std::vector<double> at, double pose_sd = 1.0) : places(std::move(at)) {
     const auto n = static_cast<Eigen::Index>(3 + 2 * places.size());
@@ -32,7 +33,7 @@ struct Line {
     Sigma(0, 0) = pose_sd * pose_sd;
   }
 
-  /// Something seen at x along the line: all pairs with it.
+  /// An observation at x along the line: gives its pairs with all landmarks.
   void see(ScanMatcher& matcher, int observation, double x) const {
     for (std::size_t j = 0; j < places.size(); ++j) {
       ExpectedObservation expected;
@@ -49,7 +50,7 @@ struct Line {
 
 TEST(ScanMatcher, JointPairsFitTogetherWhereTheNearestDoNot) {
   const Line line({0.0, 1.0, 2.5});
-  const double shift = 0.7;  // by so much the robot is wrong: the nearest of the first is the second
+  const double shift = 0.7;  // the robot's error: the second landmark is nearest to the first observation
   for (const bool jointly : {false, true}) {
     ScanMatcher matcher(1e-3, 1e-6);
     matcher.begin(3, line.Sigma);
@@ -88,20 +89,20 @@ TEST(ScanMatcher, BetweenTheGatesNothingIsSaid) {
   }
 }
 
-// The pairs of one observation tell the others where to be.
+// The pair of one observation tells where the other observations must be.
 TEST(ScanMatcher, WhatFitsAloneMayBeKnownToBeNewFromTheOthers) {
   const Line line({0.0, 3.0});
   ScanMatcher matcher(1e-3, 1e-6);
   matcher.begin(2, line.Sigma);
   line.see(matcher, 0, 0.0);
-  line.see(matcher, 1, 2.0);  // within a sigma of the second landmark, were it not for the first
+  line.see(matcher, 1, 2.0);  // alone it would be within one sigma of the second landmark
   matcher.match_jointly();
   EXPECT_EQ(matcher.match(0) == ScanMatcher::none, matcher.match(1) != ScanMatcher::none);
   const int other = matcher.match(0) == ScanMatcher::none ? 0 : 1;
   EXPECT_FALSE(matcher.may_be_known(other));
 }
 
-/// All hypotheses, one by one.
+/// Tries all hypotheses, one by one.
 struct Exhaustive {
   using Pairs = std::vector<const Candidate*>;
   struct Best {
@@ -169,8 +170,8 @@ struct Exhaustive {
   }
 };
 
-// A hypothesis may fit as a whole though a part of it does not; whether that is found depends on which pairs
-// are tried first.
+// A hypothesis may fit as a whole although a part of it does not. Whether a search finds it depends on the
+// order in which pairs are tried.
 TEST(ScanMatcher, JointPairsAreThoseOfAnExhaustiveSearch) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

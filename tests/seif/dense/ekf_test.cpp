@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <span>
 #include <vector>
 
 #include "seif/dense/symmetric_downdate.hpp"
@@ -24,7 +25,7 @@ const EstimatorSetup setup{
 
 const StageDone ignore = [](Stage) {};
 
-/// A drive past 30 landmarks: what both filters are given.
+/// A drive past 30 landmarks: the input of both filters.
 struct Step {
   Odometry odometry;
   Scan scan;
@@ -56,8 +57,8 @@ TEST(Ekf, EqualsTheSeifWithoutSparsificationAndWithExactMean) {
       ekf.motion_update(step.odometry);
       ekf.measurement_update(step.scan, ignore);
 
-      // The EKF linearises what it knows at the predicted mean, and what is new at the updated one. So does
-      // the SEIF here.
+      // The EKF linearises known landmarks at the predicted mean, and new ones at the updated mean. Here the
+      // SEIF does the same.
       motion_update(seif, step.odometry);
       std::vector<Observation> known;
       std::vector<Observation> unknown;

@@ -1,11 +1,11 @@
-// The mean that groups of landmarks carry: exact in what it says of the window, and on its way to the exact
-// solution elsewhere.
+// The mean by groups of landmarks: exact for the window, and converging to the exact solution elsewhere.
 #include "seif/groups/multilevel_mean.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <random>
 #include <vector>
 
 #include "seif/dense_oracle.hpp"
@@ -24,7 +24,7 @@ namespace {
 using test::relative;
 using test::RingDrive;
 
-/// The filter taken to pieces, so that each step of the mean can be looked at by itself.
+/// The filter in single steps, so that each step of the mean can be tested alone.
 struct Mapper {
   explicit Mapper(const PoseEstimate& start, const MultilevelOptions& options = {})
       : state(start), mean(options) {}
@@ -39,7 +39,7 @@ struct Mapper {
       if (slot && state.position(*slot) < 0) mean.activate(state, *slot);
       if (slot) state.mark_seen(*slot);
     }
-    mean.before_information(state);
+    EXPECT_TRUE(mean.before_information(state));
   }
 
   void add_known(const Scan& scan) {
@@ -59,10 +59,12 @@ struct Mapper {
       state.mark_seen(slot);
       add(state, linearise(state, slot, z, {}));
     }
-    if (heard) mean.after_information(state);
+    if (heard) {
+      EXPECT_TRUE(mean.after_information(state));
+    }
   }
 
-  /// Down to `theta_x` if the robot has more than `theta_max` links.
+  /// Sparsifies down to `theta_x` links if the robot has more than `theta_max`.
   void sparsify(int theta_x, int theta_max) {
     if (state.active_count() <= theta_max) return;
     std::vector<int> dropped;
@@ -81,7 +83,7 @@ struct Mapper {
     ASSERT_TRUE(mean.correct(state));
   }
 
-  /// The mean with all motions carried out (3+2N x 1).
+  /// The mean with all waiting motions applied (3+2N x 1).
   Eigen::VectorXd mu() const {
     Eigen::VectorXd mu = full_mu(state);
     for (int slot = 0; slot < state.landmark_count(); ++slot) {
@@ -110,7 +112,7 @@ struct Mapper {
 
 constexpr double rounding = 1e-9;  // [m, rad], or relative
 
-/// In the second round, just after the ring has closed: motions wait to be carried out everywhere.
+/// In the second round, just after the ring has closed: everywhere motions wait to be applied.
 class AfterClosure : public testing::Test {
  protected:
   void SetUp() override {
@@ -183,8 +185,8 @@ TEST_F(AfterClosure, SolvingForTheWindowIsTheDenseSolutionOfItsBlock) {
   }
 }
 
-// Each motion and each relaxation minimises the error over a few directions, or goes on by less than as much
-// again: in the norm of Omega none of them can make it larger, if the groups' forces are right.
+// Each motion and each relaxation minimises the error over a few directions, or goes at most that far beyond
+// the minimum. So none of them can increase the error in the norm of Omega, if the groups' forces are right.
 TEST_F(AfterClosure, ARobotAtRestComesToTheExactMean) {
   const Odometry at_rest;
   const double first = mapper.squared_error();
@@ -199,10 +201,10 @@ TEST_F(AfterClosure, ARobotAtRestComesToTheExactMean) {
   EXPECT_LT(last, 0.01 * first);
 }
 
-// A level is added above groups that have moved by then.
+// A level is added above groups that have already moved.
 TEST_F(AfterClosure, TheMapMayGrowByALevel) {
   const Odometry at_rest;
-  for (int k = 0; k < 20; ++k) {  // ten landmarks at a time, each ten well away from the last
+  for (int k = 0; k < 20; ++k) {  // ten landmarks at a time, far from the ten before
     Scan scan;
     for (int i = 0; i < 10; ++i) {
       Observation z{.landmark = 1000 + 10 * k + i, .range = 20.0 + 3.0 * k + i, .bearing = 0.3 * i};
@@ -220,7 +222,7 @@ TEST_F(AfterClosure, TheMapMayGrowByALevel) {
   }
 }
 
-/// A small room, of which the robot sees three landmarks at a time, at random.
+/// A small room, in which the robot sees three landmarks at a time, chosen at random.
 Mapper in_room(int landmarks, const MultilevelOptions& options, int updates) {
   oracle::RandomDrive random(11);
   Mapper mapper(test::start, options);
@@ -239,8 +241,8 @@ Mapper in_room(int landmarks, const MultilevelOptions& options, int updates) {
   return mapper;
 }
 
-// With one group, and no landmark relaxed by itself, nothing moves after the group was last touched: then it
-// is exactly that group's part of the error, and a bound from below without any factor.
+// With one group, and no landmark relaxed alone, nothing moves after the last step of the group. Then the
+// residual is exactly that group's part of the error, and a lower bound without any factor.
 TEST(MultilevelMean, TheResidualOfASingleGroupIsThatOfTheDenseMatrices) {
   Mapper mapper = in_room(10, {.over_correction = 0.0, .other_groups = 0, .relaxed_groups = 0}, 60);
   ASSERT_EQ(mapper.state.landmark_count(), 10);
@@ -250,7 +252,7 @@ TEST(MultilevelMean, TheResidualOfASingleGroupIsThatOfTheDenseMatrices) {
   const Eigen::MatrixXd D = Omega.bottomRightCorner(n, n) - Omega.bottomLeftCorner(n, 3) *
                                                                 Omega.topLeftCorner<3, 3>().inverse() *
                                                                 Omega.topRightCorner(3, n);
-  Eigen::MatrixXd B(n, 3);  // about the first landmark of the group, as each stood when it joined
+  Eigen::MatrixXd B(n, 3);  // about the group's first landmark; positions as the landmarks joined
   for (int slot = 0; slot < mapper.state.landmark_count(); ++slot) {
     const Eigen::Vector2d lever = mapper.joined_at[static_cast<std::size_t>(slot)] - mapper.joined_at[0];
     B.middleRows<2>(2 * slot) << 1, 0, -lever.y(), 0, 1, lever.x();
@@ -262,7 +264,7 @@ TEST(MultilevelMean, TheResidualOfASingleGroupIsThatOfTheDenseMatrices) {
   EXPECT_LE(mapper.mean.residual(), mapper.squared_error());
 }
 
-/// A robot that goes round landmarks so few that all are always in its window.
+/// A robot that drives around so few landmarks that all are always in its window.
 void expect_exact_mean(int landmarks) {
   oracle::RandomDrive random(5);
   const EstimatorSetup setup{.start = test::start, .T_robot_sensor = {}, .random = std::mt19937_64(1)};
@@ -273,7 +275,7 @@ void expect_exact_mean(int landmarks) {
     const Odometry u = random.odometry();
     truth = truth * u.T_previous_current;
     Scan scan;
-    for (int i = 0; k >= 3 && i < landmarks; ++i) {  // three empty scans to begin with
+    for (int i = 0; k >= 3 && i < landmarks; ++i) {  // three empty scans at first
       scan.observations.push_back(random.observation(i, truth, {2.0 + i, 1.0}));
     }
     for (Seif* filter : {&multilevel, &exact}) {

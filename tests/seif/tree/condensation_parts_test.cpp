@@ -1,4 +1,4 @@
-// The parts of the condensation tree by themselves, against dense matrices.
+// The parts of the condensation tree, each alone, against dense matrices.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -51,7 +51,7 @@ TEST(ArrayPool, WastesAQuarterAtMost) {
   }
 }
 
-/// Of M over the landmarks `kept`, the others eliminated.
+/// The Schur complement of M over the landmarks `kept`, with the others eliminated.
 Eigen::MatrixXd schur_complement(const Eigen::MatrixXd& M, const std::vector<int>& kept) {
   const Eigen::MatrixXd Sigma = M.inverse();
   const auto k = static_cast<Eigen::Index>(kept.size());
@@ -75,7 +75,7 @@ Eigen::MatrixXd unpacked(const Condensed& condensed) {
   return S;
 }
 
-/// All blocks of M, of these landmarks, as they are.
+/// All blocks of M for these landmarks, unchanged.
 Condensed part_of(const Eigen::MatrixXd& M, const std::vector<int>& slots) {
   Condensed part;
   for (const int slot : slots) part.boundary.push_back({slot, 1});
@@ -86,7 +86,7 @@ Condensed part_of(const Eigen::MatrixXd& M, const std::vector<int>& slots) {
   return part;
 }
 
-/// The front of a part, of which nothing is eliminated.
+/// The front of a part; nothing is eliminated.
 Condensed condensed(Front& front, const Condensed& part) {
   Condensed out;
   front.begin();
@@ -134,7 +134,7 @@ TEST(Front, ThatTakesInWhatOthersLeaveEqualsOneOfAll) {
   front.begin();
   front.add(a);
   front.add(b);
-  // Those that only one of the two mentions would wait for another.
+  // Landmarks that only one of the two parts mentions would wait for another part.
   ASSERT_TRUE(front.condense([](int, int leaves) { return leaves == 2; }, out));
   EXPECT_EQ(out.eliminated, (std::vector<int>{3, 4}));
 
@@ -161,7 +161,7 @@ TEST(Front, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(front.condense([](int, int) { return true; }, out));
 }
 
-/// Of 2 rows for each landmark: P, for a rigid motion of all of them about a centre.
+/// The matrix P of a rigid motion of all landmarks about a centre, with 2 rows for each landmark.
 Eigen::MatrixXd rigid_motion(const std::vector<Eigen::Vector2d>& levers) {
   Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(levers.size()), 3);
   Eigen::Index row = 0;
@@ -188,7 +188,7 @@ TEST(Front, APartOfOmegaHoldsWhatItHoldsCondensed) {
   EXPECT_LT((r - expected).norm(), part_rounding * expected.norm());
 }
 
-// Whole columns are summed for condensed parts, blocks for others.
+// Condensed parts are summed by whole columns, others by blocks.
 TEST(Front, PartsAreTiedInEitherForm) {
   Front front;
   const Eigen::MatrixXd M = positive_definite(8, 7);
@@ -210,11 +210,11 @@ TEST(Front, PartsAreTiedInEitherForm) {
     EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], part_rounding * M.norm());
 }
 
-// Four landmarks of which three move as one, two of these and then all three in turn.
+// Four landmarks. Three of them move as one: first two of the three are tied, then all three.
 TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
   const Eigen::MatrixXd M = positive_definite(8, 5);
   const std::vector<Eigen::Vector2d> levers{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
-  const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; that of the smaller is the origin
+  const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; the smaller one's is the origin
   Front front;
   const Condensed landmarks = condensed(front, part_of(M, {0, 1, 2, 3}));
   Condensed pair, all;
@@ -258,7 +258,7 @@ TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
   EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(all.s.data()) - s).norm(), part_rounding * s.norm());
 }
 
-/// A zone of eight landmarks that a front has left behind.
+/// A zone of eight landmarks, as a front leaves it.
 struct ZoneOfEight {
   ZoneOfEight() {
     Front front;
@@ -322,7 +322,6 @@ TEST(HotZone, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_EQ(z.F({0, 1, 2, 3, 4, 5, 6, 7}), before);
 }
 
-/// Nodes on the way from a node to the hub, at most as many as the tree has.
 int add_leaf(LeafTree& tree, const Eigen::Vector2d& place) {
   const int leaf = tree.new_leaf();
   tree.widen(leaf, place);
@@ -330,6 +329,7 @@ int add_leaf(LeafTree& tree, const Eigen::Vector2d& place) {
   return leaf;
 }
 
+/// Edges on the path from a node to the hub; one more than there are nodes if the path does not reach it.
 int steps_to_hub(const LeafTree& tree, int from) {
   int steps = 0;
   for (int n = from; n != tree.hub() && steps <= tree.size(); n = tree.towards(n)) ++steps;
@@ -349,7 +349,7 @@ TEST(LeafTree, EveryWayLeadsToTheHubWhereverItMoves) {
     for (int n = 0; n < tree.size(); ++n) ASSERT_LE(steps_to_hub(tree, n), tree.size());
     int sources = 0;
     for (int n = 0; n < tree.size(); ++n) tree.for_each_source(n, [&](int) { ++sources; });
-    ASSERT_EQ(sources, tree.size() - 1);  // each node but the hub sends to one other
+    ASSERT_EQ(sources, tree.size() - 1);  // each node except the hub sends to one other node
   }
 }
 
@@ -379,7 +379,7 @@ TEST(LeafTree, IsNoDeeperThanTheLogarithmOfAnAreaAsks) {
   EXPECT_LE(deepest, 39);  // three times log2(96 * 96); with a branch for each lane it would be 96 and more
 }
 
-/// Leaves here and there, each as wide as a place.
+/// Leaves at scattered places, each as wide as a place.
 std::vector<int> scatter_leaves(LeafTree& tree) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> coordinate(-80.0, 80.0);

@@ -1,10 +1,14 @@
-// The mean that the condensation tree tells, against sparse Cholesky of all Omega, at every update.
+// The mean of the condensation tree, against sparse Cholesky of all of Omega, at every update.
 #include "seif/tree/condensation_tree.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -25,20 +29,20 @@ namespace {
 
 using test::RingDrive;
 
-/// One filter twice: with the tree, and with all Omega solved wherever the tree solves.
+/// The same filter twice: with the tree, and with all of Omega solved wherever the tree solves.
 struct Twins {
   explicit Twins(const PoseEstimate& start, const CondensationOptions& options = {}, bool follows = false)
       : state(start), exact(start), tree(options, start.mean), exact_follows(follows) {
     state.first_estimates().settle_after(5);
     exact.first_estimates().settle_after(5);
-    state.first_estimates().note_sighting_sd(0.04);  // as RingDrive and PathDrive see
+    state.first_estimates().note_sighting_sd(0.04);  // [m] the noise of RingDrive and PathDrive
     exact.first_estimates().note_sighting_sd(0.04);
   }
 
   InformationState state;
   InformationState exact;
   CondensationTree tree;
-  bool exact_follows;  // its means are those of the tree, and its r tells what is wrong with them
+  bool exact_follows;  // `exact` takes the means of the tree; its r is then their error
 
   void update(const Odometry& odometry, const Scan& scan, int theta_x = 6, int theta_max = 16) {
     motion_update(state, odometry);
@@ -71,7 +75,7 @@ struct Twins {
     exact.begin_scan();
     if (!tree.activate(state, slots, range)) return false;
     if (exact_follows) follow();
-    for (const int slot : slots) {  // those that need not wait
+    for (const int slot : slots) {  // the landmarks that need not wait
       if (exact.position(slot) < 0) exact.activate(slot);
       state.mark_seen(slot);
       exact.mark_seen(slot);
@@ -126,7 +130,7 @@ struct Twins {
     ASSERT_TRUE(tree.deactivate(state, dropped));
   }
 
-  /// How far the farthest landmark, and the robot, lie from the exact solution. [m]
+  /// The largest distance of a landmark, or of the robot, from the exact solution. [m]
   double error() {
     double worst = std::hypot(state.pose().x - exact.pose().x, state.pose().y - exact.pose().y);
     for (int slot = 0; slot < state.landmark_count(); ++slot) {
@@ -138,18 +142,18 @@ struct Twins {
 
 constexpr double exact = 1e-8;  // [m]
 
-/// Small leaves, for deep trees in small worlds; all the work of a new zone at once.
+/// Small leaves, which give deep trees in small worlds; all work of a new zone is done at once.
 constexpr CondensationOptions deep{.most_in_leaf = 4, .most_hot = 10, .most_blocks = 0};
 
-/// The same in slices: many observations fall into the time when a zone is on its way.
+/// The same in slices: many observations arrive while a zone is being prepared.
 CondensationOptions sliced(CondensationOptions options) {
   options.most_blocks = 300;
   return options;
 }
 
-/// Adds up how many observations had to wait.
+/// Expects the exact mean in a drive. Adds to `waited` how many observations had to wait.
 void expect_exact_mean(test::PathDrive drive, CondensationOptions options, std::int64_t* waited = nullptr) {
-  options.most_unknowns = 100'000;  // never a group
+  options.most_unknowns = 100'000;  // no group is ever made
   Twins twins(drive.setup().start, options);
   for (int k = 0; !drive.at_end(); ++k) {
     drive.advance();
@@ -162,7 +166,7 @@ void expect_exact_mean(test::PathDrive drive, CondensationOptions options, std::
 
 using test::Points;
 
-/// `rounds` of a polygon of sixteen corners.
+/// `rounds` rounds along a polygon of sixteen corners.
 Points circle(const Eigen::Vector2d& centre, double radius, double from, double rounds) {
   Points corners;
   for (int i = 0; i <= 16 * rounds; ++i) {
@@ -244,11 +248,11 @@ TEST_P(InWorld, TheMeanIsTheExactSolutionWhileTheZoneMovesInSlices) {
     SCOPED_TRACE(seed);
     expect_exact_mean({test::landmarks_along(path, seed), path, seed}, sliced(deep), &waited);
   }
-  if (test::under_sanitizer) return;                  // one seed, in which nothing may have had to wait
-  EXPECT_EQ(waited > 0, GetParam().name != "Chain");  // which never comes back
+  if (test::under_sanitizer) return;                  // only one seed; maybe nothing had to wait in it
+  EXPECT_EQ(waited > 0, GetParam().name != "Chain");  // the chain never comes back
 }
 
-/// Three heaps of landmarks with nothing in between.
+/// Three clusters of landmarks with nothing in between.
 TEST(CondensationTree, HeapsFarApartAreExact) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
@@ -260,7 +264,7 @@ TEST(CondensationTree, HeapsFarApartAreExact) {
   }
 }
 
-/// Here and there at random: whatever order leaves become hot in.
+/// Random places, so that leaves become hot in any order.
 TEST(CondensationTree, RandomEpisodesAreExact) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
@@ -277,19 +281,19 @@ TEST(CondensationTree, RandomEpisodesAreExact) {
   }
 }
 
-/// Groups so soon and so coarse that even these small worlds are full of them.
+/// Groups begin so early and are so coarse that even these small worlds are full of them.
 constexpr CondensationOptions grouped{
     .most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5, .most_blocks = 0};
-constexpr double residual_rounding = 1e-7;  // of r, where one observation more changes it by about 1e3
+constexpr double residual_rounding = 1e-7;  // of r; one more observation changes r by about 1e3
 
-/// Of all rows, or of those of the window.
+/// The largest absolute value in r, over all rows or those of the window.
 double largest(const Eigen::VectorXd& r) { return r.cwiseAbs().maxCoeff(); }
 
-// Where groups move as one, what pulls at their landmarks is not zero; but it must be known: then it is gone
-// once they move one by one.
+// While a group moves as one, the residual of its landmarks is not zero. It must still be known: it becomes
+// zero once the landmarks move one by one.
 TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
   const Points path = GetParam().path();
-  std::array<double, 2> most_left{};  // all at once, and in slices
+  std::array<double, 2> most_left{};  // all work at once, and in slices
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
@@ -305,13 +309,13 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
     twins.follow();
     EXPECT_LT(largest(full_r(twins.exact)), residual_rounding);
   }
-  EXPECT_GT(most_left[1], 1e4 * residual_rounding);  // or there were no groups
+  EXPECT_GT(most_left[1], 1e4 * residual_rounding);  // otherwise there were no groups
   EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * residual_rounding);
 }
 
 TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {
   const Points path = GetParam().path();
-  const unsigned drives = std::max(seeds, 5U);  // a ratio of sums: one drive alone says little
+  const unsigned drives = std::max(seeds, 5U);  // a ratio of sums; one drive alone tells little
   double squared_error = 0.0;
   double squared_error_of_exact = 0.0;
   for (unsigned seed = 1; seed <= drives; ++seed) {

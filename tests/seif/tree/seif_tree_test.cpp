@@ -1,9 +1,12 @@
-// Our filter with the condensation tree: what an update costs, and what happens where a map grows too wide
-// for it.
+// Our filter with the condensation tree: the cost of an update, and its behaviour in a map that is too wide for
+// the tree.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 #include "allocation_counter.hpp"
@@ -31,7 +34,7 @@ void add_blocks_touched(int landmarks, int measured, unsigned seed, std::vector<
   }
 }
 
-/// Of some drives, in order of size.
+/// The counts of several drives, sorted.
 std::vector<std::int64_t> blocks_touched(int landmarks, int measured) {
   std::vector<std::int64_t> blocks;
   const unsigned drives = test::under_sanitizer ? 1 : 3;
@@ -69,7 +72,8 @@ TEST(SeifByTree, IsTheSameToTheBitTheSecondTime) {
   for (std::size_t i = 0; i < map_a.size(); ++i) EXPECT_EQ(map_a[i].mean, map_b[i].mean);
 }
 
-/// A square that is covered in lanes of 4 m and then crossed: the boundaries of areas grow with their sides.
+/// A square that is covered in lanes of 4 m and then crossed: the boundaries of areas grow with the side of the
+/// square.
 test::PathDrive wide_drive(double side, int landmark_count) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> anywhere(0.0, side);
@@ -84,17 +88,16 @@ test::PathDrive wide_drive(double side, int landmark_count) {
 }
 
 /// Drives to the end.
-Seif driven(test::PathDrive drive, const SeifOptions& options) {
-  Seif filter(drive.setup(), options);
+void drive_all(Seif& filter, test::PathDrive drive) {
   while (!drive.at_end()) {
     drive.advance();
     filter.motion_update(drive.odometry());
     filter.measurement_update(drive.scan(), test::ignore);
   }
-  return filter;
 }
 
-/// RMSE of one map to the other, laid over it: the heading at the start, which turns all, is known to 1e-2.
+/// RMSE between two maps after aligning one to the other: the start's heading, which turns the whole map, has
+/// an uncertainty of 1e-2.
 double distance_of_shapes(const std::vector<LandmarkEstimate>& map,
                           const std::vector<LandmarkEstimate>& other) {
   const auto columns = [](const std::vector<LandmarkEstimate>& landmarks) {
@@ -115,13 +118,16 @@ TEST(SeifByTree, InAWideMapGroupsSaveWorkAndHardlyMoveTheMap) {
   const double side = test::under_sanitizer ? 20.0 : 44.0;
   const int landmarks = test::under_sanitizer ? 150 : 480;
   SeifOptions with_groups = by_tree;
-  with_groups.tree.most_blocks = 0;  // no observation waits, so that both filters hear the same
+  with_groups.tree.most_blocks = 0;  // no observation waits, so both filters get the same observations
   SeifOptions without_groups = with_groups;
   without_groups.tree.most_unknowns = 1'000'000;
-  const Seif exact = driven(wide_drive(side, landmarks), without_groups);
-  const Seif grouped = driven(wide_drive(side, landmarks), with_groups);
-  EXPECT_LT(grouped.counts().blocks_touched, exact.counts().blocks_touched);
-  const double moved = distance_of_shapes(grouped.map(), exact.map());
+  const test::PathDrive drive = wide_drive(side, landmarks);
+  Seif exact_filter(drive.setup(), without_groups);
+  Seif grouped_filter(drive.setup(), with_groups);
+  drive_all(exact_filter, drive);
+  drive_all(grouped_filter, drive);
+  EXPECT_LT(grouped_filter.counts().blocks_touched, exact_filter.counts().blocks_touched);
+  const double moved = distance_of_shapes(grouped_filter.map(), exact_filter.map());
   EXPECT_GT(moved, 0.0);
   EXPECT_LT(moved, 1e-3);  // a twentieth of the noise of a range
 }
