@@ -21,8 +21,7 @@ namespace harness {
 
 struct DetailChoices {
   std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] path lengths of the relative pose error
-  double away = 20.0;                                // [s] not seen for this long: the next sighting closes a
-                                                     // loop
+  double away = 20.0;                                // [s] a landmark unseen for this long closes a loop
   /// The folder of `ESTIMATOR_consistency.csv`; empty: the run's own folder.
   std::filesystem::path consistency;
 };
