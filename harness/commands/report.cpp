@@ -17,7 +17,7 @@ namespace {
 struct ReportArguments {
   std::string folder;
   std::string out;      // empty: report.html in the folder
-  std::string figures;  // a folder for PNG and SVG; empty: none
+  std::string figures;  // folder for PNG and SVG; empty: write no figures
   std::string library;  // path of Chart.js; empty: where packages install it
   bool no_replay = false;
 };

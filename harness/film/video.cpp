@@ -100,7 +100,7 @@ class VideoSink : public FrameSink {
   }
 
  private:
-  /// Removes an old file first: nothing is written through a link that stands there.
+  /// Removes an old file first, so that nothing is written through an existing link.
   std::filesystem::path fresh() const {
     std::error_code ignored;
     std::filesystem::remove(unfinished(), ignored);

@@ -32,7 +32,7 @@ Eigen::Matrix3d covariance(const OdometryNoise& noise, const seif::Pose2& T_prev
 
 /// The noise options of the command line: a file, and `noise.key=value`, which has precedence.
 struct NoiseChoices {
-  std::filesystem::path file = {};  // empty: none
+  std::filesystem::path file = {};  // empty: no file
   std::vector<std::string> overrides = {};
 
   bool empty() const { return file.empty() && overrides.empty(); }

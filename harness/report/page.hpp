@@ -21,7 +21,7 @@ struct Fact {
 struct Table {
   std::string title = {};
   std::vector<TextRow> rows = {};  // the first is the header
-  std::string note = {};           // text below the table; empty: none
+  std::string note = {};           // text below the table, if any
 };
 
 /// A long text, shown unchanged and folded by default.

@@ -22,7 +22,7 @@ class Drive {
   Drive(const worlds::Drive& drive, const worlds::Robot& robot, std::mt19937_64 random,
         PathIsClear path_is_clear);
 
-  /// The command at time t [s] for a robot that believes to be at T_world_robot. Times must not decrease.
+  /// The command at time t [s] for a robot that believes it is at T_world_robot. Times must not decrease.
   sim::Command command(double t, const seif::Pose2& T_world_robot);
 
  private:
