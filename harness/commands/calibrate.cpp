@@ -15,7 +15,7 @@ struct CalibrateArguments {
   std::string format;
 };
 
-/// Where the search begins: a robot that errs by some per cent.
+/// The start of the search: errors of a few per cent.
 const LogNoise guess{.odometry = OdometryNoise{0.05, 0.02, 0.05, 0.05},
                      .sensor = SensorNoise{0.1, 0.02, 0.02}};
 

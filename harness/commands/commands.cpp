@@ -13,7 +13,7 @@
 namespace harness {
 
 void print_problems(std::vector<worlds::Problem> problems) {
-  constexpr std::size_t most = 50;  // [-] that anybody reads
+  constexpr std::size_t most = 50;  // [-] more would not be read
   worlds::sort_by_place(problems);
   for (std::size_t i = 0; i < std::min(most, problems.size()); ++i)
     fmt::print(stderr, "{}\n", worlds::to_string(problems[i]));

@@ -1,5 +1,5 @@
-// The commands of the program. Each adds itself to the command line and, if it was called, runs with the exit
-// code: 0 fine, 1 a run that failed, 2 bad input, 130 interrupted.
+// The commands of the program. Each adds itself to the command line, and runs if it was called. Exit codes: 0
+// success, 1 a run failed, 2 bad input, 130 interrupted.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,11 +14,11 @@
 
 namespace harness {
 
-/// What every command is handed.
+/// What every command receives.
 struct CommandLine {
   CLI::App& app;
   const seif::Registry& registry;
-  int& exit_code;  // of the command that ran
+  int& exit_code;  // set by the command that ran
 };
 
 void add_run(CommandLine line);
@@ -38,41 +38,42 @@ void add_schema(CommandLine line);
 void add_doctor(CommandLine line);
 void add_estimators(CommandLine line);
 
-/// Prints each problem as a line of stderr, sorted by place.
+/// Prints each problem as a line on stderr, sorted by position.
 void print_problems(std::vector<worlds::Problem> problems);
 
-/// Runs a command; what it throws is printed, and becomes an exit code.
+/// Runs a command. An exception is printed and turned into an exit code.
 int guarded(const std::function<int()>& command);
 
-/// Where a run goes, and what is printed of it.
+/// The output folder of a run, and what is printed.
 struct OutputArguments {
-  std::string out;  // a folder; empty: a new one in runs/
+  std::string out;  // output folder; empty: a new one in runs/
   bool json = false;
   bool quiet = false;
 };
 
-/// --format, --robot, --truth and --noise.
+/// Adds --format, --robot, --truth and --noise.
 void add_log_options(CLI::App& command, LogChoice& log);
 
-/// For the help: `folder` is what --out is by default, `printed` what --json prints, and instead of what.
+/// Adds the output options. For the help texts: `folder` is the default of --out, and `printed` says what
+/// --json prints.
 void add_output_options(CLI::App& command, OutputArguments& output, const std::string& folder,
                         const std::string& printed = "summary.json instead of the scoreboard");
 
-/// The folder that --out asks for, or by default a new one, runs/`name`.
+/// Makes the folder that --out gives, or by default a new one, runs/`name`.
 std::filesystem::path make_folder(const OutputArguments& output, const std::string& name);
 
-/// Makes the folder of a run, by default runs/`name`, and puts it into the plan.
+/// Makes the folder of a run, by default runs/`name`, and enters it into the plan.
 void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name);
 
-/// Tells how a run ended: its error, and the summary as JSON or as a scoreboard. The exit code.
+/// Prints the result of a run: its error, and the summary as JSON or as a scoreboard. Returns the exit code.
 int print_result(const RunResult& result, const std::filesystem::path& folder, const OutputArguments& output);
 
-/// Prints what came of it as JSON, or as a board with the folder to which it was written, or nothing, as was
-/// asked. The exit code, as print_all() keeps it.
+/// Prints a result as JSON, or as a board with the folder that it was written to, or not at all, as `output`
+/// says. Returns the exit code as print_all() does.
 int print_output(const OutputArguments& output, const std::string& json, const std::string& board,
                  const std::filesystem::path& folder, int exit_code);
 
-/// Prints to stdout. The exit code is kept, unless that cannot be written.
+/// Prints to stdout. Returns `exit_code`, unless stdout cannot be written.
 int print_all(const std::string& text, int exit_code);
 
 }  // namespace harness

@@ -26,15 +26,15 @@ namespace {
 struct CompareArguments {
   std::vector<std::string> inputs;  // one world file, or log folders
   std::string seeds;                // empty: 1..20, for a world
-  ReplayChoices choices;            // the overrides of worlds too
-  std::string baseline;             // empty: the ekf, or the first
+  ReplayChoices choices;            // its overrides are used for worlds too
+  std::string baseline;             // empty: the ekf, otherwise the first
   int jobs = 1;
-  std::string keep;  // empty: the folders of the runs go
+  std::string keep;  // empty: the run folders are deleted
   bool json = false;
   bool quiet = false;
 };
 
-/// Runs in a folder below `keep`, or in one that goes afterwards.
+/// Runs in a folder inside `keep`, or in a temporary folder.
 template <class WriteWorld>
 DetailedRun execute_in(const std::string& keep, const std::string& name, PreparedRun run,
                        const WriteWorld& write_world_to) {
@@ -58,7 +58,7 @@ DetailedRun run_seed(const CompareArguments& arguments, std::uint64_t seed, cons
       [&](const std::filesystem::path& folder) { write_world(folder, world, loaded.resolved); });
 }
 
-/// The runs of a world, one for each seed. Nothing if it has problems.
+/// Plans the runs of a world, one for each seed. Empty if the world has problems.
 std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, const seif::Registry& registry,
                                                   Comparison& comparison) {
   if (!arguments.choices.estimators.empty())
@@ -84,8 +84,8 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
   return planned;
 }
 
-/// The runs of logs, one for each, which are opened once to see that they can be. Nothing if their settings
-/// have problems.
+/// Plans the runs of logs, one for each. Each log is opened once to check that it can be. Empty if the
+/// settings have problems.
 std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, const seif::Registry& registry,
                                                  Comparison& comparison) {
   if (!arguments.seeds.empty()) throw BadInput("--seeds is for worlds; a log is recorded");

@@ -16,7 +16,7 @@ std::string text_of(const seif::OptionValue& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
-/// What the option may be, as far as it is bounded.
+/// The limits of an option's value, if it has any.
 std::string limits_of(const seif::OptionSpec& option) {
   if (!option.choices.empty()) return fmt::format("one of {}", fmt::join(option.choices, ", "));
   std::vector<std::string> limits;

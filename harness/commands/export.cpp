@@ -23,7 +23,7 @@ struct ExportArguments {
   std::string out;        // empty: stdout
 };
 
-/// The estimator that was asked for, or the first. `others` may be asked for too.
+/// The estimator that was asked for, or the first one. The names in `others` are allowed too.
 std::string choose_estimator(const std::string& asked, const std::vector<std::string>& names,
                              const std::vector<std::string>& others) {
   if (names.empty() && asked.empty()) throw BadInput("--estimator: the run has none");

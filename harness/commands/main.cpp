@@ -25,7 +25,7 @@ void raise_limits(double factor) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader that went away and a file that may not grow are errors that are told, not the end of a run.
+  // A closed pipe or a file-size limit must give an error message, not kill the program.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const seif::Registry registry = harness::known_estimators();
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Zero for --help and --version; everything else is a command line that cannot be understood.
+    // Zero for --help and --version; any other parse error is bad input.
     return app.exit(error) == 0 ? 0 : 2;
   }
   return exit_code;

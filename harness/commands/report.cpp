@@ -18,11 +18,11 @@ struct ReportArguments {
   std::string folder;
   std::string out;      // empty: report.html in the folder
   std::string figures;  // a folder for PNG and SVG; empty: none
-  std::string library;  // Chart.js; empty: where packages put it
+  std::string library;  // path of Chart.js; empty: where packages install it
   bool no_replay = false;
 };
 
-/// Where Debian and others put it.
+/// The paths where Debian and others install Chart.js.
 constexpr const char* library_files[] = {"/usr/share/javascript/chart.js/chart.min.js",
                                          "/usr/share/nodejs/chart.js/dist/chart.min.js",
                                          "/usr/local/share/javascript/chart.js/chart.min.js"};
@@ -38,7 +38,7 @@ std::string read_library(const std::string& file) {
       "where its chart.min.js is");
 }
 
-/// Each as PNG and SVG. False, and a line of stderr, if one cannot be drawn.
+/// Draws each figure as PNG and SVG. If one cannot be drawn, prints a line to stderr and returns false.
 bool draw_figures(const Page& page, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   std::string complaint;

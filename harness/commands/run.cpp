@@ -22,10 +22,10 @@ namespace {
 struct RunArguments {
   std::string world;
   std::vector<std::string> overrides;
-  std::string seed;                // checked as part of the world; empty: the file's
+  std::string seed;                // checked as part of the world; empty: the file's seed
   std::optional<double> duration;  // [s]
   bool film = false;
-  bool resume = false;  // `world` is the folder of a run
+  bool resume = false;  // then `world` is the folder of a run
   OutputArguments output;
 };
 

@@ -25,14 +25,15 @@ namespace {
 struct ScoreArguments {
   std::filesystem::path folder;
   DetailChoices details;
-  std::vector<std::string> references;  // estimators that are scored beside those of the run
+  std::vector<std::string> references;  // additional estimators to score
   bool every_update = false;
   bool no_replay = false;
   bool json = false;
 };
 
-/// By a replay into an empty folder. A run that does not come to the same estimates again, or whose
-/// estimators this program does not have, goes without, unless all updates were asked for.
+/// Rebuilds scores by a replay into an empty folder. There are no such scores if the replay differs from the
+/// run, or if the program does not have the run's estimators. If all updates were asked for, this is an
+/// error.
 std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const Summary& summary,
                                          const std::vector<std::string>& names,
                                          const std::filesystem::path& to, const seif::Registry& registry) {
@@ -53,7 +54,7 @@ std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const 
   }
 }
 
-/// Of what is whole of a run that was cut off: by a replay, which writes what that run came not to write.
+/// For a run that was cut off: replays its complete part, to write the files that the run could not write.
 void make_whole(const std::filesystem::path& log, const std::filesystem::path& to,
                 const seif::Registry& registry) {
   const worlds::LoadResult settings = load_replay_settings(log, {}, registry);
@@ -65,7 +66,7 @@ void make_whole(const std::filesystem::path& log, const std::filesystem::path& t
   execute(replay);
 }
 
-/// What a reader of the tables should know of a log that does not tell the truth.
+/// A note for the reader of the tables, if the log does not hold the truth.
 std::string without_truth(const std::filesystem::path& run) {
   const bool poses = std::filesystem::exists(run / "truth.csv");
   const bool landmarks = std::filesystem::exists(run / "landmarks.csv");

@@ -21,8 +21,8 @@ struct SweepArguments {
   SweepChoices choices;
   std::string world;
   std::string out;
-  std::string resume;  // the folder of a sweep that was begun; empty: begin with WORLD
-  std::string status;  // the same, to tell how far it is
+  std::string resume;  // folder of a sweep to continue; empty: begin with WORLD
+  std::string status;  // folder of a sweep whose progress is printed
   std::string shard = "1/1";
   bool slurm = false;
   SlurmChoices slurm_choices;
@@ -46,21 +46,22 @@ bool has_failure(const Aggregate& aggregate) {
          });
 }
 
-/// Writes the tables and tells of them. The exit code.
+/// Writes the tables and prints the results. Returns the exit code.
 int finish(const SweepFolder& sweep, bool json, bool quiet) {
   const Aggregate aggregate = write_tables(sweep);
   return print_output({.out = {}, .json = json, .quiet = quiet}, to_json(aggregate),
                       aggregate_board(aggregate), sweep.path, has_failure(aggregate) ? 1 : 0);
 }
 
-/// Tells of a sweep some of whose runs are still open. The exit code says whether any of `ours` failed.
+/// Prints the progress of a sweep with open runs. The exit code says whether any run of the shard `ours`
+/// failed.
 int pause(const SweepFolder& sweep, const SweepStatus& status, const Shard& ours, bool quiet) {
   const bool failed = std::ranges::any_of(
       status.failed, [&](const FailedCell& cell) { return cell.index % ours.of == ours.number - 1; });
   return print_all(quiet ? "" : to_text(sweep, status), failed ? 1 : 0);
 }
 
-/// The folder of the sweep that the command line means. Nothing if the world has problems.
+/// The sweep folder that the command line refers to. Empty if the world has problems.
 std::optional<SweepFolder> find_sweep(const SweepArguments& arguments, const seif::Registry& registry) {
   if (!arguments.resume.empty()) return open_sweep(arguments.resume);
   if (arguments.world.empty()) throw BadInput("sweep: WORLD is required, or --resume DIR, or --status DIR");
@@ -79,7 +80,7 @@ int tell_status(const SweepFolder& sweep) {
   return print_all(text, status.failed.empty() ? 0 : 1);
 }
 
-/// Runs what is to be run here. The exit code.
+/// Runs the cells of this process. Returns the exit code.
 int run_here(const SweepFolder& sweep, const Shard& shard, const SweepArguments& arguments,
              const seif::Registry& registry) {
   const bool quiet = arguments.quiet || arguments.json;

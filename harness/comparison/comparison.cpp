@@ -7,7 +7,7 @@ namespace harness {
 
 namespace {
 
-/// A value of an estimator in each run; nothing where it did not finish the run or has no such value.
+/// A value of an estimator for each run; empty if it did not finish the run or has no such value.
 using Values = std::vector<std::optional<double>>;
 using Get = std::function<std::optional<double>(const EstimatorScore&)>;
 
@@ -30,7 +30,7 @@ std::vector<std::string> names_of(std::span<const ComparedRun> runs) {
   return names;
 }
 
-/// The score of an estimator in a run that it finished.
+/// The score of an estimator in a run; null if it did not finish the run.
 const EstimatorScore* finished(const ComparedRun& run, const std::string& name) {
   const Summary& summary = run.result.summary;
   const auto score = std::ranges::find(summary.score.estimators, name, &EstimatorScore::name);
@@ -39,7 +39,7 @@ const EstimatorScore* finished(const ComparedRun& run, const std::string& name) 
   return summary.failures.at(index).empty() ? &*score : nullptr;
 }
 
-/// Whether a run was to feed the estimator. A run that failed before it began was.
+/// True if the run has this estimator. A run that failed before it began counts for all estimators.
 bool takes_part(const ComparedRun& run, const std::string& name) {
   const std::vector<EstimatorScore>& scores = run.result.summary.score.estimators;
   return scores.empty() || std::ranges::find(scores, name, &EstimatorScore::name) != scores.end();
@@ -77,7 +77,7 @@ std::optional<Estimate> paired_ratio(const Values& values, const Values& baselin
   return ratio_of_means(numerators, denominators);
 }
 
-/// The values of each run.
+/// The ratio for each run.
 Values ratios(const Values& values, const Values& baseline) {
   Values result(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -103,7 +103,7 @@ void compare_errors(std::span<const ComparedRun> runs, const std::string& baseli
   estimator.aligned_ratio_median = median_of(aligned_ratios);
 }
 
-/// What the details of the runs say of an estimator in those that it finished.
+/// Adds the means of the details, over the runs that the estimator finished.
 void compare_details(std::span<const ComparedRun> runs, EstimatorComparison& estimator) {
   const auto mean = [&](const std::function<std::optional<double>(const EstimatorDetails&)>& get) {
     std::vector<double> values;
@@ -130,7 +130,7 @@ void compare_details(std::span<const ComparedRun> runs, EstimatorComparison& est
   estimator.landmarks_duplicate = mean_count(&MapCounts::duplicate);
 }
 
-/// Relocations for each update, of a run that had any.
+/// Relocations per update; empty if the run had none.
 std::optional<double> relocation_rate(const ComparedRun& run, const std::string& name) {
   const EstimatorScore* score = finished(run, name);
   if (score == nullptr || score->relocations.value_or(0) == 0) return std::nullopt;

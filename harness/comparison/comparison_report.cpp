@@ -108,7 +108,7 @@ TextRow cost_row(const EstimatorComparison& estimator) {
           number_cell(estimator.update_p99_us, 1)};
 }
 
-/// A line for each run and each estimator in it that failed.
+/// One line for a failed run, or for each estimator that failed in it.
 std::string failures(const ComparedRun& run) {
   if (!run.result.error.empty()) return fmt::format("{} failed: {}\n", run.name, run.result.error);
   const Summary& summary = run.result.summary;

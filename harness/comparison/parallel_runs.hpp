@@ -10,7 +10,7 @@
 
 namespace harness {
 
-/// A run to be done. An exception becomes the error of its result.
+/// A run to be executed. If it throws, the message becomes the error of its result.
 struct PlannedRun {
   std::string name;
   std::function<DetailedRun()> run;
@@ -18,10 +18,10 @@ struct PlannedRun {
 
 struct FinishedRuns {
   std::vector<ComparedRun> runs;  // in the order of the plan
-  bool interrupted = false;       // then those that had not come to an end are missing
+  bool interrupted = false;       // if true, runs that were not completed are missing
 };
 
-/// SIGINT and SIGTERM end it.
+/// Executes all runs. SIGINT and SIGTERM interrupt them.
 FinishedRuns execute_all(const std::vector<PlannedRun>& planned, int jobs, bool quiet);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The findings of the doctor: whether everything works on this machine.
+// The findings of `seifbed doctor`: whether everything works on this machine.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 namespace harness {
 
 struct Finding {
-  std::string name;  // of what was looked at
+  std::string name;  // what was examined
   bool is_good = true;
-  std::string says;  // a version or a figure; or what is wrong, and what to install
+  std::string says;  // a version or a figure; or the problem, and what to install
 };
 
 struct Diagnosis {
@@ -19,7 +19,8 @@ struct Diagnosis {
   std::vector<Finding> self_test;
 };
 
-/// `look` returns the text of a good finding, or throws a std::exception with what is wrong.
+/// Calls `look`. Its result is the text of a good finding; the message of a std::exception is the text of a
+/// bad one.
 Finding finding(const std::string& name, const std::function<std::string()>& look);
 
 bool is_well(const Diagnosis& diagnosis);

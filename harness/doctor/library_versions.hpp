@@ -8,7 +8,7 @@ namespace harness {
 
 struct LibraryVersion {
   std::string_view name;
-  std::string_view version;  // "unknown" where the library does not say
+  std::string_view version;  // "unknown" if the library does not give it
 };
 
 std::span<const LibraryVersion> library_versions();

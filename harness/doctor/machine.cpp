@@ -31,7 +31,7 @@ std::string cores() {
   return fmt::format("{} usable of {}", CPU_COUNT(&usable), sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-/// A line of /proc/meminfo, such as `MemTotal`. [byte]
+/// The value of a line of /proc/meminfo, such as `MemTotal`. [byte]
 double memory_of(const std::string& key) {
   std::ifstream file("/proc/meminfo");
   for (std::string line; std::getline(file, line);) {
@@ -44,23 +44,23 @@ std::string memory() {
   const double free = memory_of("MemAvailable");
   const std::string text =
       fmt::format("{:.1f} GiB, {:.1f} GiB of it free", memory_of("MemTotal") / gibibyte, free / gibibyte);
-  constexpr double least = 0.25 * gibibyte;  // what a run of the gallery takes
+  constexpr double least = 0.25 * gibibyte;  // enough for a run of the gallery
   if (free < least) throw std::runtime_error(text + ": end other programs");
   return text;
 }
 
-/// Room on the disk, and the permission to use it.
+/// Free disk space; throws if the folder is not writable or too full.
 std::string room_in(const std::filesystem::path& folder) {
   const double free = static_cast<double>(std::filesystem::space(folder).available);
   const std::string text = fmt::format("{:.1f} GiB free in {}", free / gibibyte, folder.string());
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw std::runtime_error(text + ": it cannot be written to; choose another with --out or TMPDIR");
-  constexpr double least = 0.05 * gibibyte;  // some runs and their films
+  constexpr double least = 0.05 * gibibyte;  // enough for some runs and their films
   if (free < least) throw std::runtime_error(text + ": make room");
   return text;
 }
 
-/// What a program writes to stderr, given its input.
+/// What a program writes to stderr for this input.
 std::string words_of(const std::vector<std::string>& program, const std::string& input,
                      const std::string& package) {
   try {
@@ -88,7 +88,7 @@ std::string gnuplot() {
              words_of({"gnuplot"}, "print GPVAL_VERSION, ' patchlevel ', GPVAL_PATCHLEVEL\n", "gnuplot-nox"));
 }
 
-/// By writing a film of this kind.
+/// Tests an encoder: writes a film in this format.
 std::string encoder(const std::string& extension) {
   constexpr int side = 64;  // [px]
   const TemporaryFolder folder;

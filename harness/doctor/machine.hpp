@@ -1,4 +1,4 @@
-// What this machine offers to the program.
+// Checks what this machine offers to the program.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace harness {
 
-/// Cores, memory, room on the disk, the graphics library, ffmpeg and its codecs, gnuplot. A finding is bad if a
-/// command of this program would fail because of it.
+/// Cores, memory, disk space, the graphics library, ffmpeg and its codecs, gnuplot. A finding is bad if a
+/// command of this program would fail.
 std::vector<Finding> look_at_machine();
 
 }  // namespace harness

@@ -28,14 +28,14 @@ void require(bool holds, const std::string& otherwise) {
   if (!holds) throw std::runtime_error(otherwise);
 }
 
-/// Where four seconds of this command lead.
+/// The state of the robot after four seconds of this command.
 sim::RobotState driven(const worlds::World& world, const sim::Command& command) {
   const std::unique_ptr<sim::Simulator> simulator = sim::make_simulator(world);
   for (int i = 0; i < 4 * world.physics.step_rate; ++i) simulator->step(command);
   return simulator->robot();
 }
 
-/// Without slip, rigid bodies come to where kinematics has them, but for what wheels creep.
+/// Without slip, the robot in Bullet arrives where kinematics says, except for a little creep of the wheels.
 std::string physics() {
   constexpr sim::Command command{0.5, 0.2};
   worlds::World world;
@@ -80,7 +80,7 @@ std::string sensing() {
   const std::string text =
       fmt::format("200 scans, ranges off by {:.1f} mm in the mean, sd {:.1f} mm of {:.1f}", 1e3 * sum / count,
                   1e3 * measured, 1e3 * sd);
-  // Four of their own standard deviations; where the robot comes to rest is a matter of micrometres.
+  // Both within four of their own standard deviations. The robot's resting place varies by micrometres only.
   require(std::abs(sum / count) < 4.0 * sd / std::sqrt(count), text);
   require(std::abs(measured / sd - 1.0) < 4.0 / std::sqrt(2.0 * count), text);
   return text;
@@ -112,7 +112,7 @@ RunResult executed(PreparedRun run, const std::filesystem::path& folder) {
   return result;
 }
 
-/// A drive round a square: the map, the belief about it, and the same bits from the record.
+/// Drives round a square, and checks the map, the belief, and that a replay gives the same bits.
 std::string estimation(const seif::Registry& registry) {
   const TemporaryFolder folder;
   const worlds::World world = load_loop(folder.path(), registry);

@@ -1,4 +1,4 @@
-// A self-test of this build on this machine, in a few seconds.
+// Tests whether this build works on this machine. It takes a few seconds.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Physics, sensing, estimation, recording and rendering, each compared with the expected result.
+/// Tests physics, sensing, estimation, recording and rendering, each against known results.
 std::vector<Finding> test_self(const seif::Registry& registry);
 
 }  // namespace harness

@@ -48,7 +48,7 @@ void Batch::measurement_update(const seif::Scan& scan, const seif::StageDone& do
   done(seif::Stage::measurement);
 }
 
-/// A landmark that is new gets the next number.
+/// The number of a landmark. A new landmark gets the next number.
 int Batch::landmark_number(seif::LandmarkId landmark) {
   if (const auto number = index_.find(landmark)) return *number;
   ids_.push_back(landmark);

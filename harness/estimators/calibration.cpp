@@ -21,14 +21,14 @@ namespace harness {
 namespace {
 
 constexpr double outlier_probability = 0.01;
-/// [1/(m rad)] of an outlier: a range of up to 10 m, any bearing.
+/// [1/(m rad)] density of an outlier: a range of up to 10 m and any bearing.
 constexpr double outlier_density = 1.0 / (10.0 * 2.0 * std::numbers::pi);
 
-constexpr double smallest_sensor_sd = 1e-4;  // [m, rad] of a search; a sensor has some error
+constexpr double smallest_sensor_sd = 1e-4;  // [m, rad] lower limit: every sensor has some error
 
-using Parameters = Eigen::VectorXd;  // logarithms of those standard deviations that are not zero
+using Parameters = Eigen::VectorXd;  // logarithms of the standard deviations that are not zero
 
-/// What a log says about the noise: the log-likelihood of each scan.
+/// The log-likelihood of each scan of a log.
 struct Likelihood {
   std::vector<double> scans;
   std::int64_t outliers = 0;
@@ -40,7 +40,7 @@ struct Likelihood {
   }
 };
 
-/// Takes in one observation; returns its log-likelihood.
+/// Processes one observation. Returns its log-likelihood.
 double take(const CalibrationLog& log, const CalibrationLog::Event& event, const SensorNoise& noise,
             seif::Odometry& belief, std::int64_t& outliers) {
   const seif::PredictedObservation predicted =
@@ -80,7 +80,7 @@ void add_likelihood(const CalibrationLog& log, const LogNoise& noise, Likelihood
   }
 }
 
-/// The search: which values are not zero, and where they are.
+/// The search for the parameters: which are not zero, and their values.
 class Search {
  public:
   Search(const std::vector<CalibrationLog>& logs, const NoiseValues& guess) : logs_(logs), values_(guess) {
@@ -89,7 +89,7 @@ class Search {
     }
   }
 
-  /// Leaves out, one after the other, what cannot be told apart from zero.
+  /// Sets parameters that cannot be distinguished from zero to zero, one after the other.
   void run() {
     climb();
     for (std::optional<std::size_t> vague = vaguest(); vague; vague = vaguest()) {
@@ -131,7 +131,7 @@ class Search {
     return likelihood;
   }
 
-  /// One row for each scan: how its log-likelihood changes with each parameter.
+  /// The derivatives of the log-likelihoods with respect to the parameters, one row for each scan.
   Eigen::MatrixXd scores_at(const Parameters& x) const {
     constexpr double step = 1e-3;
     Eigen::MatrixXd scores;
@@ -149,11 +149,12 @@ class Search {
     return scores;
   }
 
-  /// By the information that the scores give of themselves (Berndt, Hall, Hall, Hausman 1974).
+  /// Maximises the likelihood. The information matrix is the sum of the outer products of the scores (Berndt,
+  /// Hall, Hall, Hausman 1974).
   void climb() {
     constexpr int most_steps = 60;
-    constexpr double small = 1e-3;   // [-] of the logarithm of a standard deviation
-    constexpr double longest = 0.7;  // [-] the same: a factor of two
+    constexpr double small = 1e-3;   // [-] step in the logarithm of a standard deviation
+    constexpr double longest = 0.7;  // [-] the same; a factor of two
     double damping = 1.0;
     Parameters x = parameters();
     double best = at(x).sum();
@@ -183,7 +184,7 @@ class Search {
   }
 
   double error_of_log(std::size_t i) const {
-    // What the likelihood does not depend on at all must not make the others' errors infinite.
+    // A parameter without influence on the likelihood must not make the errors of the others infinite.
     Eigen::MatrixXd Omega = information_;
     Omega.diagonal().array() += 1e-6;
     const Eigen::MatrixXd covariance =
@@ -192,12 +193,12 @@ class Search {
     return std::sqrt(covariance(k, k));
   }
 
-  /// The one that is known least, if that is to less than a factor of e.
+  /// The parameter with the largest error, if its logarithm has a standard error above 1, a factor of e.
   std::optional<std::size_t> vaguest() const {
     std::optional<std::size_t> worst;
     double most = 1.0;
     for (std::size_t i = 0; i < free_.size(); ++i) {
-      const bool may_be_zero = free_[i] != 4 && free_[i] != 6;  // a sensor has some error
+      const bool may_be_zero = free_[i] != 4 && free_[i] != 6;  // every sensor has some error
       if (!may_be_zero || error_of_log(i) <= most) continue;
       most = error_of_log(i);
       worst = i;
@@ -208,7 +209,7 @@ class Search {
   const std::vector<CalibrationLog>& logs_;
   NoiseValues values_;
   std::vector<std::size_t> free_;
-  Eigen::MatrixXd information_;  // on the parameters
+  Eigen::MatrixXd information_;  // for the parameters
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace harness {
 
 namespace {
 
-/// Describes one option; its value is left in `options`.
+/// Describes one option; its value is stored in `value`.
 class DescribeOption {
  public:
   DescribeOption(worlds::Fields& fields, const seif::OptionSpec& spec, worlds::OptionValue& value)

@@ -23,11 +23,11 @@ namespace {
 
 /// The smallest standard deviation of a motion in any direction. [m, rad]
 ///
-/// The covariance of a motion may be singular: one increment of a differential drive has rank 2, as it cannot
-/// slip sideways. The optimum then lies on a constraint, and this is how tightly it is held there: what it
-/// lets through is 0.3 mm after ten thousand poses, and the rounding of J' J is 1e-6 of a covariance, where
-/// it would be 1e-5 with a third of it. A motion without any noise makes no pose of its own
-/// (is_certain), so a robot at rest is exact.
+/// The covariance of a motion may be singular: an increment of a differential drive has rank 2, because the
+/// robot cannot slip sideways. The optimum then lies on a constraint, and this value says how tightly the
+/// constraint is held. It allows 0.3 mm after ten thousand poses. The rounding of J' J is then 1e-6 of a
+/// covariance; with a third of the value it would be 1e-5. A motion without any noise makes no pose of its
+/// own (is_certain), so a robot at rest is exact.
 constexpr double smallest_motion_sd = 3e-6;
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -38,12 +38,12 @@ seif::Pose2 pose_of(const double* x) { return {x[0], x[1], x[2]}; }
 
 Eigen::Vector3d vector_of(const seif::Pose2& pose) { return {pose.x, pose.y, pose.theta}; }
 
-/// a - b with the heading wrapped.
+/// a - b, with the heading wrapped.
 Eigen::Vector3d difference(const seif::Pose2& a, const seif::Pose2& b) {
   return {a.x - b.x, a.y - b.y, seif::wrap_angle(a.theta - b.theta)};
 }
 
-/// W with W' W = covariance^-1, for a positive definite one.
+/// W with W' W = covariance^-1, for a positive definite covariance.
 template <int n>
 Eigen::Matrix<double, n, n> whitening(const Eigen::Matrix<double, n, n>& covariance) {
   using Square = Eigen::Matrix<double, n, n>;
@@ -54,7 +54,7 @@ Eigen::Matrix<double, n, n> whitening(const Eigen::Matrix<double, n, n>& covaria
   return llt.matrixL().solve(Square::Identity());
 }
 
-/// The same for a motion's, of any rank.
+/// The same for the covariance of a motion, which may have any rank.
 Eigen::Matrix3d whitening_of_motion(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
   const Eigen::Vector3d sd =
@@ -62,7 +62,7 @@ Eigen::Matrix3d whitening_of_motion(const Eigen::Matrix3d& covariance) {
   return sd.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-/// W (x_0 - start).
+/// The residual W (x_0 - start).
 class StartCost final : public ceres::SizedCostFunction<3, 3> {
  public:
   explicit StartCost(const seif::PoseEstimate& start) : start_(start), W_(whitening(start.covariance)) {}
@@ -78,8 +78,8 @@ class StartCost final : public ceres::SizedCostFunction<3, 3> {
   Eigen::Matrix3d W_;
 };
 
-/// W (u_ij - u): the motion that two poses mean, against the one that was measured, in the frame of the
-/// first. u_ij solves x_j = g(x_i, u_ij), so that d u_ij = (dg/du)^-1 (d x_j - F d x_i), and dg/du is the
+/// The residual W (u_ij - u): the motion u_ij between two poses minus the measured motion u, in the frame of
+/// the first pose. u_ij solves x_j = g(x_i, u_ij), so d u_ij = (dg/du)^-1 (d x_j - F d x_i), and dg/du is the
 /// rotation by theta_i.
 class MotionCost final : public ceres::SizedCostFunction<3, 3, 3> {
  public:
@@ -92,7 +92,7 @@ class MotionCost final : public ceres::SizedCostFunction<3, 3, 3> {
     meant.T_previous_current = inverse(T_world_i) * pose_of(parameters[1]);
     Eigen::Map<Eigen::Vector3d>{residuals} = W_ * difference(meant.T_previous_current, measured_);
     if (jacobians == nullptr) return true;
-    RowMajor3 W_i = W_;  // times the inverse rotation
+    RowMajor3 W_i = W_;  // W times the inverse rotation
     const Eigen::Rotation2Dd R_i_world(-T_world_i.theta);
     W_i.leftCols<2>() *= R_i_world.toRotationMatrix();
     if (jacobians[0] != nullptr)
@@ -106,7 +106,7 @@ class MotionCost final : public ceres::SizedCostFunction<3, 3, 3> {
   Eigen::Matrix3d W_;
 };
 
-/// W (h(x, m) - z).
+/// The residual W (h(x, m) - z).
 class SightingCost final : public ceres::SizedCostFunction<2, 3, 2> {
  public:
   explicit SightingCost(const Sighting& sighting)
@@ -127,7 +127,7 @@ class SightingCost final : public ceres::SizedCostFunction<2, 3, 2> {
   Eigen::Matrix2d W_;
 };
 
-/// The unknowns, where Ceres finds and changes them.
+/// The unknowns, in memory that Ceres modifies.
 struct Unknowns {
   std::vector<Eigen::Vector3d> poses;
   std::vector<Eigen::Vector2d> landmarks;
@@ -136,7 +136,7 @@ struct Unknowns {
   double* landmark(int i) { return landmarks[static_cast<std::size_t>(i)].data(); }
 };
 
-/// The loss of a sighting: a^2 log(1 + s / a^2) instead of s, the squared norm of its residual.
+/// The loss of a sighting: a^2 log(1 + s / a^2) instead of s, where s is the squared norm of the residual.
 ceres::LossFunction* loss_of(const FullSlam& slam) {
   return slam.robust_above > 0.0 ? new ceres::CauchyLoss(slam.robust_above) : nullptr;
 }
@@ -153,8 +153,8 @@ void add_terms(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem
   }
 }
 
-/// Gauss and Newton's steps, and Levenberg and Marquardt's damping only where one of them fails: damping is
-/// relative to the stiffest term at a pose, and there are constraints among them.
+/// Uses Gauss-Newton steps, and the damping of Levenberg-Marquardt only where such a step fails. Damping is
+/// relative to the stiffest term of a pose, and some terms are constraints.
 void minimise(ceres::Problem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -172,7 +172,7 @@ void minimise(ceres::Problem& problem) {
     throw std::runtime_error("batch: no optimum was found: " + summary.message);
 }
 
-/// All unknowns, rows as in FullSlam.
+/// All unknowns; the rows are as in FullSlam.
 ceres::Problem::EvaluateOptions all_of(Unknowns& unknowns) {
   ceres::Problem::EvaluateOptions options;
   for (Eigen::Vector3d& pose : unknowns.poses) options.parameter_blocks.push_back(pose.data());
@@ -180,7 +180,7 @@ ceres::Problem::EvaluateOptions all_of(Unknowns& unknowns) {
   return options;
 }
 
-/// The terms linearised: the lower triangle of J' J, and J' times the residuals.
+/// The linearised terms: the lower triangle of J' J, and J' times the residuals.
 struct NormalEquations {
   Eigen::SparseMatrix<double> Omega;
   Eigen::VectorXd gradient;
@@ -200,9 +200,9 @@ NormalEquations linearise(Unknowns& unknowns, ceres::Problem& problem) {
           Eigen::Map<const Eigen::VectorXd>(gradient.data(), static_cast<Eigen::Index>(gradient.size()))};
 }
 
-/// Gauss and Newton's steps from what is nearly the optimum, for as long as they shrink: until rounding, so
-/// that nothing depends on where the search began. A solver that compares sums of squares cannot tell so
-/// small steps from none. Returns J' J.
+/// Takes Gauss-Newton steps near the optimum as long as they shrink, down to rounding. So the result does not
+/// depend on where the search began. A solver that compares sums of squares cannot see steps this small.
+/// Returns J' J.
 Eigen::SparseMatrix<double> refine(Unknowns& unknowns, ceres::Problem& problem) {
   double before = std::numeric_limits<double>::infinity();
   while (true) {

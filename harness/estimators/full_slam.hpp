@@ -1,4 +1,5 @@
-// The full SLAM problem of a recorded stream, with every pose and every landmark, and its least-squares optimum.
+// The full SLAM problem of a recorded stream (all poses and all landmarks at once), and its least-squares
+// optimum.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +11,7 @@
 
 namespace harness {
 
-/// A landmark as it was seen from a pose. Both are given by their numbers, from 0.
+/// An observation of a landmark from a pose. Poses and landmarks are numbered from 0.
 struct Sighting {
   int pose = 0;
   int landmark = 0;
@@ -18,13 +19,13 @@ struct Sighting {
   seif::Observation observation;
 };
 
-/// The terms of the optimisation, weighted by their covariances.
+/// The measurements of the problem. Terms are weighted by the inverse of their covariances.
 struct FullSlam {
   seif::PoseEstimate start;             // of pose 0
   std::vector<seif::Odometry> motions;  // from pose i to pose i + 1
   std::vector<Sighting> sightings;      // in the order of their poses
   int landmark_count = 0;
-  double robust_above = 0.0;  // [sigma] sightings that are further off weigh less (Cauchy); 0: none does
+  double robust_above = 0.0;  // [sigma] larger residuals of sightings count less (Cauchy); 0: all count fully
 
   int pose_count() const { return static_cast<int>(motions.size()) + 1; }
   int row_of_pose(int pose) const { return 3 * pose; }
@@ -34,27 +35,27 @@ struct FullSlam {
 struct FullSlamOptimum {
   std::vector<seif::Pose2> poses;          // T_world_robot
   std::vector<Eigen::Vector2d> landmarks;  // p_world_landmark [m]
-  Eigen::SparseMatrix<double> Omega;       // J' J there, lower triangle; rows: the poses, then the landmarks
+  Eigen::SparseMatrix<double> Omega;       // J' J at the optimum, lower triangle; poses, then landmarks
 };
 
-/// Two motions in a row as one, its covariance to first order.
+/// Two successive motions as one, with the covariance to first order.
 seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second);
 
-/// Propagates the covariance of a pose and landmarks, [x y theta m1x m1y ...], through a motion from this pose,
+/// `Sigma` is the covariance of a pose and of landmarks, [x y theta m1x m1y ...]. Moves its pose by a motion,
 /// to first order. (3+2k x 3+2k)
 void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odometry& motion);
 
-/// Whether a motion is so certain that observations after it may count as observations from its beginning.
+/// True if a motion is so certain that observations after it can count as made before it.
 bool is_certain(const seif::Odometry& motion);
 
-/// The inverse of a motion's covariance, whatever its rank: no direction is known better than to 3e-6 m or
-/// rad.
+/// The inverse of a motion's covariance of any rank. No direction is known better than to 3e-6 m or rad.
 Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance);
 
-/// The poses for a known map, by an extended Kalman filter of the pose alone.
+/// The poses for a map that is assumed known, by an extended Kalman filter of the pose.
 std::vector<seif::Pose2> poses_on_map(const FullSlam& slam, std::span<const Eigen::Vector2d> landmarks);
 
-/// Minimises the sum of squared residuals from a first guess. Throws std::runtime_error if it does not converge.
+/// Minimises the sum of squared residuals from an initial guess. Throws std::runtime_error if this does not
+/// converge.
 FullSlamOptimum optimum(const FullSlam& slam, std::span<const seif::Pose2> poses,
                         std::span<const Eigen::Vector2d> landmarks);
 

@@ -37,7 +37,7 @@ peers::SensorNoise noise_of(const seif::Scan& scan) {
 }
 
 #ifdef __SANITIZE_ADDRESS__
-/// What is allocated meanwhile is no leak.
+/// What is allocated while this object lives does not count as a leak.
 struct LeaksAllowed {
   LeaksAllowed() { __lsan_disable(); }
   ~LeaksAllowed() { __lsan_enable(); }
@@ -48,7 +48,8 @@ struct LeaksAllowed {
 struct LeaksAllowed {};
 #endif
 
-/// It stays loaded: its libraries keep what they have registered to the end of the program.
+/// Loads the module. It is never unloaded, because its libraries have registered objects that must live until
+/// the end of the program.
 std::unique_ptr<peers::MrptFilter> make_filter(const std::filesystem::path& module,
                                                const peers::MrptSetup& setup) {
   if (!std::filesystem::exists(module))

@@ -1,4 +1,4 @@
-// MRPT's range-bearing EKF-SLAM on our stream: a peer that is not ours.
+// MRPT's range-bearing EKF-SLAM on our stream: a filter of another project, for comparison.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@
 
 namespace harness {
 
-/// Uses the stream's covariances of the motions, and for each scan one measurement noise: the mean of the scan's
-/// variances. MRPT takes motions in with the next scan that sees a landmark; until then they are added up here.
-/// It counts no blocks.
+/// Uses the stream's own covariances of the motions. MRPT has one measurement noise for a whole scan: the
+/// mean of the observations' variances. MRPT processes motions only together with a scan that sees a
+/// landmark; until then they are accumulated here. It counts no blocks.
 class MrptEkf final : public seif::Estimator {
  public:
   explicit MrptEkf(std::unique_ptr<peers::MrptFilter> filter) : filter_(std::move(filter)) {}
@@ -40,16 +40,16 @@ class MrptEkf final : public seif::Estimator {
   Eigen::MatrixXd covariance(const std::vector<int>& rows) const;
 
   std::unique_ptr<peers::MrptFilter> filter_;
-  seif::Odometry since_;               // the motion that it has not taken in yet
-  std::vector<seif::LandmarkId> ids_;  // by their places in its state
+  seif::Odometry since_;               // the motion since then, not yet processed
+  std::vector<seif::LandmarkId> ids_;  // in the order of its state
   seif::LandmarkIndex index_;
   std::vector<peers::Sighting> seen_;  // reused from scan to scan
 };
 
-/// The path of the module that contains MRPT.
+/// The path at which the build puts the module with MRPT.
 std::filesystem::path peers_module();
 
-/// `mrpt_ekf`. Making one throws BadInput if the module is missing.
+/// The estimator type `mrpt_ekf`. Making the estimator throws BadInput if the module does not exist.
 seif::EstimatorType mrpt_ekf_estimator(const std::filesystem::path& module = peers_module());
 
 }  // namespace harness

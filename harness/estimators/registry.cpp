@@ -9,7 +9,7 @@ seif::Registry known_estimators() {
   seif::Registry registry = seif::standard_estimators();
   registry.add(batch_estimator(registry));
   registry.add(mrpt_ekf_estimator());
-  // An estimator of your own joins here: registry.add(...) makes it known to world files and to all commands.
+  // Add an estimator of your own here: registry.add(...) makes it known to world files and to all commands.
   return registry;
 }
 

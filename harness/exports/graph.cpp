@@ -17,7 +17,7 @@ namespace harness {
 
 namespace {
 
-/// Takes in a stream, and puts poses and landmarks where an estimator has them.
+/// Builds the graph from a stream. Poses and landmarks get the values of an estimator.
 class GraphBuilder {
  public:
   GraphBuilder(const LogDescription& log, std::vector<TimedPose> trajectory,
@@ -32,7 +32,7 @@ class GraphBuilder {
   void take(const OdometryEvent& event) { motion_ = compose(motion_, event.odometry); }
 
   void take(const ScanEvent& event) {
-    // As in the optimum: where the robot has not moved there is no new pose.
+    // As in the optimum: without motion there is no new pose.
     if (!is_certain(motion_)) add_pose();
     ++scans_;
     const seif::Pose2 T_pose_sensor = motion_.T_previous_current * T_robot_sensor_;
@@ -51,7 +51,7 @@ class GraphBuilder {
     graph_.slam.motions.push_back(std::exchange(motion_, {}));
   }
 
-  /// A landmark that is new gets the next number.
+  /// The number of a landmark. A new landmark gets the next number.
   int number_of(const seif::Observation& observation) {
     const auto [number, is_new] = numbers_.try_emplace(observation.landmark, graph_.slam.landmark_count);
     if (!is_new) return number->second;
@@ -70,7 +70,7 @@ class GraphBuilder {
   std::vector<TimedPose> trajectory_;  // one for each scan
   std::map<seif::LandmarkId, Eigen::Vector2d> map_;
   std::map<seif::LandmarkId, int> numbers_;
-  std::size_t scans_ = 0;  // [-] taken in
+  std::size_t scans_ = 0;  // [-] so far
   seif::Odometry motion_;  // since the last pose
   RecordedGraph graph_;
 };
@@ -101,8 +101,8 @@ void add_vertices(std::span<const seif::Pose2> poses, std::span<const Eigen::Vec
     fmt::format_to(out, "VERTEX_XY {} {} {}\n", poses.size() + j, landmarks[j].x(), landmarks[j].y());
 }
 
-/// The error of an edge is that of its end as seen from where it was measured to be: turned by the motion
-/// from where our covariance is, which is the frame of its beginning.
+/// g2o's error of an edge is the error of its end, in the frame of the measured end. Our covariance is in the
+/// frame of the beginning, so it is turned by the measured motion.
 void add_motion(int from, const seif::Odometry& motion, std::string& text) {
   fmt::format_to(std::back_inserter(text), "EDGE_SE2 {} {}", from, from + 1);
   add_pose(motion.T_previous_current, text);
@@ -111,8 +111,8 @@ void add_motion(int from, const seif::Odometry& motion, std::string& text) {
   add_information(Eigen::Matrix3d(R.transpose() * information_of_motion(motion.covariance) * R), text);
 }
 
-/// The motion of a sensor that is fixed to a robot, its covariance to first order. Where the robot errs by
-/// (d, phi) the sensor, at p on it, errs by d + R'(theta) p phi.
+/// The motion of a sensor that is fixed to a robot, with its covariance to first order. If the robot has the
+/// error (d, phi), the sensor at p on the robot has the error d + R'(theta) p phi.
 seif::Odometry motion_of_sensor(const seif::Odometry& motion, const seif::Pose2& T_robot_sensor) {
   const seif::Pose2& T = motion.T_previous_current;
   const Eigen::Matrix2d R_sensor_robot = Eigen::Rotation2Dd(-T_robot_sensor.theta).toRotationMatrix();
@@ -123,8 +123,8 @@ seif::Odometry motion_of_sensor(const seif::Odometry& motion, const seif::Pose2&
   return {motion.t, inverse(T_robot_sensor) * T * T_robot_sensor, J * motion.covariance * J.transpose()};
 }
 
-/// From the vertex of a sensor's pose. The sensor is at T_vertex_sensor when it sees: there, unless the robot
-/// has moved in a way that is known exactly.
+/// An observation as bearing and range from the vertex of a sensor's pose. The sensor observes from
+/// T_vertex_sensor. This is the identity unless the robot has moved since by a motion that is known exactly.
 void add_bearing_and_range(const Sighting& sighting, const seif::Pose2& T_vertex_sensor, int landmark,
                            std::string& text) {
   const seif::InverseObservation seen = seif::invert_observation({}, T_vertex_sensor, sighting.observation);
@@ -135,7 +135,7 @@ void add_bearing_and_range(const Sighting& sighting, const seif::Pose2& T_vertex
                  from_vertex.z(1), from_vertex.z(0), sd(1), sd(0));
 }
 
-/// A range and a bearing as a point in the frame of the pose, its covariance to first order.
+/// Range and bearing as a point in the frame of the pose, with its covariance to first order.
 void add_sighting(const Sighting& sighting, int landmark, std::string& text) {
   const seif::InverseObservation inverse =
       seif::invert_observation({}, sighting.T_pose_sensor, sighting.observation);
@@ -143,7 +143,7 @@ void add_sighting(const Sighting& sighting, int landmark, std::string& text) {
   const Eigen::Matrix2d covariance = J * sighting.observation.covariance * J.transpose();
   const Eigen::Vector2d& p = inverse.p_world_landmark;
   fmt::format_to(std::back_inserter(text), "EDGE_SE2_XY {} {} {} {}", sighting.pose, landmark, p.x(), p.y());
-  add_information(Eigen::Matrix2d(covariance.inverse()), text);  // of fixed size
+  add_information(Eigen::Matrix2d(covariance.inverse()), text);  // of fixed size, so inverse() is safe
 }
 
 }  // namespace

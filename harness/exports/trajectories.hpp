@@ -7,8 +7,8 @@
 
 namespace harness {
 
-/// A CSV table with a row for each update: `t`, the true pose where it is known, dead reckoning, and each of
-/// the estimators; cells are empty after an estimator was taken out of the run. Throws BadInput.
+/// A CSV table with a row for each update: `t`, the true pose if it is known, dead reckoning, and each
+/// estimator. Cells are empty after an estimator was removed from the run. Throws BadInput.
 std::string trajectories_csv(const std::filesystem::path& run, std::span<const std::string> estimators);
 
 }  // namespace harness

@@ -22,7 +22,7 @@ Points smallest_and_largest(Points points, std::size_t bins) {
   for (std::size_t begin = 0, bin = 1; begin < count; ++bin) {
     std::size_t end = begin;
     while (end < count && (bin >= bins || points.x[end] < first + width * static_cast<double>(bin))) ++end;
-    if (end == begin) continue;  // nothing in this stretch
+    if (end == begin) continue;  // no points in this bin
     const auto at = [&](std::size_t i) { return points.y.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto [low, high] = std::minmax_element(at(begin), at(end));
     const auto lowest = static_cast<std::size_t>(low - at(0));

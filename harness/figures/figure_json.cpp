@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 std::string text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// Seven digits are more than any screen shows.
+/// Seven digits are more than a screen shows.
 std::string numbers(const std::vector<double>& values, bool is_logarithmic) {
   std::string json = "[";
   for (const double value : values) {
@@ -64,7 +64,7 @@ std::string to_json(const Figure& figure) {
   for (const FigureCurve& curve : figure.curves)
     curves += fmt::format("{}{}", curves.empty() ? "" : ",", curve_json(figure, curve));
   std::string whole = text(json);
-  whole.pop_back();  // its closing brace
+  whole.pop_back();  // the closing brace
   return fmt::format("{},\"curves\":[{}]}}", whole, curves);
 }
 

@@ -13,7 +13,7 @@ namespace harness {
 
 namespace {
 
-/// Control characters as spaces, between quotes.
+/// The text in quotes, with control characters replaced by spaces.
 std::string quoted(std::string text) {
   std::ranges::replace_if(
       text, [](char sign) { return sign >= 0 && sign < ' '; }, ' ');
@@ -25,7 +25,7 @@ bool is_drawn(const Figure& figure, double x, double y) {
          !(figure.y.is_logarithmic && y <= 0.0);
 }
 
-/// A block of data for each curve; an empty line breaks it.
+/// One block of data for each curve. An empty line breaks a curve.
 std::string data_of(const Figure& figure) {
   std::string text;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

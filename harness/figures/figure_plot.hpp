@@ -1,4 +1,4 @@
-// Figures for papers: PNG and SVG, by gnuplot.
+// Figures for papers, as PNG and SVG files drawn by gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace harness {
 
-/// Draws ID.png and ID.svg into an existing folder. Returns what went wrong, or nothing.
+/// Draws `ID.png` and `ID.svg` in an existing folder. Returns an error message, or nothing.
 std::string draw(const Figure& figure, const std::filesystem::path& folder);
 std::string draw(const MatrixFigure& figure, const std::filesystem::path& folder);
 

@@ -23,7 +23,7 @@ constexpr Terminal terminals[] = {{"pngcairo", "png"}, {"svg", "svg"}};
 std::string script(const Picture& picture, const std::filesystem::path& folder) {
   std::string text = picture.settings;
   for (const Terminal& terminal : terminals) {
-    // An absolute path: one that began with a bar would be a command.
+    // An absolute path: gnuplot would take a name that begins with a bar for a command.
     const std::filesystem::path file =
         std::filesystem::absolute(folder) / fmt::format("{}.{}", picture.name, terminal.extension);
     text +=

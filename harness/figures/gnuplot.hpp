@@ -9,20 +9,20 @@
 namespace harness {
 
 struct Picture {
-  std::string name;      // of its files, without extension
+  std::string name;      // file name without extension
   int width = 0;         // [px]
   int height = 0;        // [px]
   std::string settings;  // data and settings, in gnuplot's language
-  std::string plot;      // what draws it
+  std::string plot;      // the plot commands
 };
 
-/// Draws NAME.png and NAME.svg in this folder. What went wrong, or nothing.
+/// Draws NAME.png and NAME.svg in this folder. Returns an error message, or nothing.
 std::string draw_picture(const Picture& picture, const std::filesystem::path& folder);
 
-/// In gnuplot's single quotes, between which a quote is the only sign that means anything.
+/// The text in gnuplot's single quotes. Only the quote itself is special there.
 std::string gnuplot_text(const std::string& text);
 
-/// As gnuplot writes a colour: six hexadecimal digits after a hash, between single quotes.
+/// The colour as gnuplot reads it: in quotes, a number sign and six hexadecimal digits.
 std::string gnuplot_colour(Rgb colour);
 
 }  // namespace harness

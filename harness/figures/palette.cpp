@@ -14,8 +14,8 @@ struct Entry {
   Rgb colour;
 };
 
-// Seven colours are too few: kin of a filter have a dark tint of its colour. Yellow is too pale for white
-// paper.
+// Seven colours are not enough, so related filters share a colour, with a dark shade for one of them. Yellow
+// is too pale for white paper.
 constexpr Rgb dark_blue = 0x003F7F;
 constexpr Rgb dark_green = 0x005F45;
 constexpr Rgb dark_vermilion = 0x7F3800;

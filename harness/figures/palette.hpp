@@ -1,5 +1,5 @@
-// The one palette of films, plots and reports: Okabe and Ito's colours, which the colour-blind can tell
-// apart. An estimator's colour is its type's, wherever it is drawn.
+// The palette of films, plots and reports: the colours of Okabe and Ito, which colour-blind people can tell
+// apart. An estimator has the colour of its type everywhere.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline constexpr Rgb vermilion = 0xD55E00;
 inline constexpr Rgb purple = 0xCC79A7;
 }  // namespace palette
 
-/// The colour of estimators of this type; types of users share the remaining colours.
+/// The colour of estimators of this type. Types that are not ours share the remaining colours.
 Rgb colour_of_estimator(std::string_view type);
 
 }  // namespace harness

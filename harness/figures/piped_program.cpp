@@ -24,7 +24,7 @@ void check_spawn(int error, const std::string& program) {
   if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + program);
 }
 
-/// What a new process is to begin with.
+/// The settings with which a new process starts.
 class SpawnSettings {
  public:
   SpawnSettings() {
@@ -64,7 +64,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// poll() that goes on after a signal.
+/// poll() that continues after a signal.
 void wait_for(std::span<pollfd> descriptors) {
   while (poll(descriptors.data(), descriptors.size(), -1) < 0) check(errno == EINTR, "cannot poll");
 }
@@ -78,7 +78,7 @@ void Descriptor::reset(int number) {
   number_ = number;
 }
 
-// A socket rather than a pipe: send() can be told not to raise SIGPIPE.
+// A socket instead of a pipe: send() can be told not to raise SIGPIPE.
 PipedProgram::PipedProgram(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};
   check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0, "cannot make a socket");
@@ -96,11 +96,12 @@ PipedProgram::PipedProgram(const std::vector<std::string>& arguments) {
 PipedProgram::~PipedProgram() {
   try {
     static_cast<void>(finish());
-  } catch (const std::system_error&) {  // then there is nothing more to be waited for
+  } catch (const std::system_error&) {  // there is nothing left to wait for
   }
 }
 
-// Its stderr is read all the while: a program that says much would else stand still, and so would we.
+// Reads the program's stderr while sending. Otherwise a program that writes much would block, and so would
+// we.
 bool PipedProgram::send(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
     std::array<pollfd, 2> descriptors{{{input_.number(), POLLOUT, 0}, {errors_.number(), POLLIN, 0}}};

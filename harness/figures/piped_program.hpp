@@ -1,4 +1,4 @@
-// Another program that reads what we send it.
+// Another program that reads our data from its standard input.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace harness {
 
-/// A descriptor of the system that is closed with the object.
+/// A file descriptor that is closed with the object.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -27,28 +27,29 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Runs without a shell, in a process group of its own: Ctrl-C at the terminal does not reach it. When we
-/// end, however that comes, it finds the end of its input, and finishes its work.
+/// The program runs without a shell, in its own process group, so Ctrl-C in the terminal does not reach it.
+/// When we end for any reason, its input ends and it can finish its work.
 class PipedProgram {
  public:
-  /// The name of the program, looked for along PATH, and its arguments. Throws std::system_error if it cannot
-  /// be started; its code is std::errc::no_such_file_or_directory if there is no such program.
+  /// Starts a program, searched for along PATH, with its arguments. Throws std::system_error if this fails;
+  /// the code is std::errc::no_such_file_or_directory if there is no such program.
   explicit PipedProgram(const std::vector<std::string>& arguments);
 
-  /// Waits for its end.
+  /// Waits for the program's end.
   ~PipedProgram();
 
-  /// Hands these bytes to its standard input. False if it does not read them all, because it has ended.
+  /// Sends these bytes to the program's standard input. False if the program ended before it had read all of
+  /// them.
   [[nodiscard]] bool send(std::span<const std::uint8_t> bytes);
 
-  /// Ends its input and waits for its end. False if it failed.
+  /// Closes the program's input and waits for its end. False if the program failed.
   [[nodiscard]] bool finish();
 
-  /// The beginning of what it has written to stderr.
+  /// The beginning of the program's output to stderr.
   const std::string& complaint() const { return complaint_; }
 
  private:
-  /// Takes in what is there to be read from its stderr. False at the end.
+  /// Reads what the program has written to stderr. False at the end.
   bool read_complaint();
 
   Descriptor input_;   // its stdin, a socket

@@ -1,11 +1,11 @@
-// The error for wrong input.
+// The error for invalid input from the user.
 #pragma once
 
 #include <stdexcept>
 
 namespace harness {
 
-/// The program was given bad input. what() is a whole message: `file:line:column: reason`.
+/// The input is invalid. what() is a complete message: `file:line:column: reason`.
 class BadInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// RFC 4648, section 4.
+/// Encodes as in RFC 4648, section 4.
 std::string base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// Reads text tables row by row, strictly: every error names file, line, column and reason.
+// Reads text tables row by row, strictly. Every error message has file, line, column and reason.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace harness {
 
-/// The columns of a table in their order: required ones, a group that is complete or absent, and after it a group
-/// that older versions did not write.
+/// The columns of a table, in this order: required ones, a group that may follow, and a second group that may
+/// follow the first. The second group is missing in files of older versions.
 struct Columns {
   std::vector<std::string> required;
   std::vector<std::string> optional;
@@ -23,11 +23,11 @@ class CsvReader {
  public:
   CsvReader(std::filesystem::path path, Columns columns);
 
-  /// A table without a header whose cells stand between spaces, as in TUM files; lines that begin with # are
-  /// skipped.
+  /// Opens a table without a header, with spaces between the cells, as in TUM files. Lines that begin with #
+  /// are skipped.
   static CsvReader without_header(std::filesystem::path path, Columns columns);
 
-  /// The next row; false at the end. A row may stop early: the cells that it lacks are empty.
+  /// Reads the next row; false at the end. A row may be short: its missing cells are empty.
   bool next();
 
   bool has_optional() const { return has_optional_; }

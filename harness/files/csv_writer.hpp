@@ -1,4 +1,4 @@
-// Writes text tables as a run goes, in bounded memory.
+// Writes text tables during a run, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,13 @@
 
 namespace harness {
 
-/// A text as one cell of a table: between quotes where it needs them (RFC 4180).
+/// The text as a cell of a table, in quotes if it needs them (RFC 4180).
 std::string csv_cell(std::string_view text);
 
-/// Rows of values. Numbers read back to the same bits.
+/// Writes rows of values. Numbers read back have the same bits.
 class CsvWriter {
  public:
-  /// `header` is the first line, without its end. The separator of TUM files is a space, and they have no
-  /// header.
+  /// `header` is the first line, without its line end. A TUM file has a space as separator and no header.
   explicit CsvWriter(std::filesystem::path path, std::string_view header, char separator = ',');
 
   CsvWriter& value(double number);

@@ -1,4 +1,4 @@
-// A hash that is the same on every machine and in every build, as std::hash is not.
+// A hash that is the same on every machine and in every build, unlike std::hash.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace harness {
 
-/// 64 bits, by Fowler, Noll and Vo; RFC 9923 gives the constants.
+/// The 64-bit hash of Fowler, Noll and Vo; the constants are in RFC 9923.
 class Fnv1a {
  public:
   void add(std::string_view bytes) {

@@ -15,7 +15,7 @@ namespace harness {
 
 namespace {
 
-constexpr std::size_t buffer_limit = std::size_t{1} << 16;  // [byte] gathered before they go to the system
+constexpr std::size_t buffer_limit = std::size_t{1} << 16;  // [byte] written at once to the operating system
 
 }  // namespace
 
@@ -36,7 +36,7 @@ OutputFile::~OutputFile() {
   try {
     close();
   } catch (const std::system_error&) {
-    // A destructor cannot tell; whoever needs to know calls close().
+    // A destructor cannot report an error; call close() before to get it.
   }
 }
 
@@ -59,18 +59,18 @@ void OutputFile::flush() {
   }
   size_ += static_cast<std::int64_t>(buffer_.size());
   buffer_.clear();
-  // Writing to a file that was deleted succeeds, and everything is lost.
+  // Writing to a deleted file succeeds, but the data is lost.
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail(errno);
   if (status.st_nlink == 0) fail(ENOENT);
 }
 
-/// `written` is how much of the buffer has reached the file.
+/// `written` is the part of the buffer that reached the file.
 void OutputFile::keep_whole_lines(std::string_view written) {
   const std::size_t end = written.rfind('\n');
   size_ += end == std::string_view::npos ? 0 : static_cast<std::int64_t>(end) + 1;
   buffer_.clear();
-  static_cast<void>(::ftruncate(descriptor_, size_) == 0);  // the first failure is the one to tell of
+  static_cast<void>(::ftruncate(descriptor_, size_) == 0);  // the first error is the one to report
 }
 
 void OutputFile::sync() {

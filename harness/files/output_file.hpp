@@ -1,4 +1,4 @@
-// Output files on which every error is noticed, and files read or written as a whole.
+// Files that never lose an error of writing, and functions that read or write a whole file.
 #pragma once
 
 #include <cstdint>
@@ -8,21 +8,22 @@
 
 namespace harness {
 
-/// A file that only grows. Every failure (disk full, file gone) throws std::system_error that names the file.
+/// A file that only grows. Every failure (disk full, file deleted) throws std::system_error with the name of
+/// the file.
 class OutputFile {
  public:
-  /// Creates the file; one that exists already is an error.
+  /// Creates the file. It must not exist.
   explicit OutputFile(std::filesystem::path path);
-  ~OutputFile();  // closes; what a failed flush() left is lost, so call close() where it matters
+  ~OutputFile();  // closes; data that flush() failed to write is lost, so call close() if this matters
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
   void append(std::string_view text);
 
-  /// Hands everything to the operating system. Where that fails, no part of a line is left in the file, and
-  /// what was not written is lost.
+  /// Hands all data to the operating system. If this fails, the file ends with a complete line, and the
+  /// unwritten data is lost.
   void flush();
-  /// The same, and waits until it is on the disk.
+  /// As flush(), and waits until the data is on the disk.
   void sync();
   void close();
 
@@ -35,10 +36,10 @@ class OutputFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::string buffer_;
-  std::int64_t size_ = 0;  // [byte] of what was flushed
+  std::int64_t size_ = 0;  // [byte] flushed so far
 };
 
-/// Writes the whole text. No reader finds a part of the file under its name, even after a power failure.
+/// Writes the whole text. Nobody ever finds a part of the file under its name, even after a power failure.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 /// Reads an existing file. Throws std::system_error.

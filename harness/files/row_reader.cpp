@@ -12,7 +12,7 @@ namespace harness {
 
 namespace {
 
-constexpr std::size_t longest_line = 4096;  // [byte] no row of numbers comes near it
+constexpr std::size_t longest_line = 4096;  // [byte] far longer than any row of numbers
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 

@@ -1,4 +1,5 @@
-// Reads a text file line by line and each line cell by cell. Every error names file, line, column and reason.
+// Reads a text file line by line, and each line cell by cell. Every error message has file, line, column and
+// reason.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +13,16 @@
 
 namespace harness {
 
-/// Whether a number must be finite, or may be written as nan or inf.
+/// Whether a number must be finite, or may be nan or inf.
 enum class Finite { required, not_required };
 
 /// A file as a stream of lines, in constant memory. All functions throw BadInput.
 class RowReader {
  public:
-  /// Cells stand between separators; where that is a space, between runs of spaces and tabs.
+  /// `separator` is between the cells. If it is a space, any number of spaces and tabs separates cells.
   RowReader(std::filesystem::path path, char separator);
 
-  /// The next line; false at the end.
+  /// Reads the next line; false at the end.
   bool next();
 
   const std::filesystem::path& path() const { return path_; }
@@ -29,10 +30,10 @@ class RowReader {
   std::string_view line() const { return line_; }
   bool is_comment() const { return line_.starts_with('#'); }
 
-  std::size_t size() const { return cells_.size(); }  // of cells
-  std::string_view cell(std::size_t i) const;         // without spaces around it; empty where there is none
+  std::size_t size() const { return cells_.size(); }  // number of cells
+  std::string_view cell(std::size_t i) const;         // trimmed; empty if the line has no such cell
 
-  /// Reads a cell; error messages call it `name`.
+  /// The number in a cell; error messages call the cell `name`.
   double number(std::size_t i, std::string_view name, Finite finite = Finite::required) const;
   std::int64_t integer(std::size_t i, std::string_view name, std::int64_t min, std::int64_t max) const;
   [[noreturn]] void fail(std::size_t i, const std::string& reason) const;

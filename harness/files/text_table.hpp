@@ -1,4 +1,4 @@
-// Tables of text for people.
+// Tables as plain text.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,12 @@ namespace harness {
 
 using TextRow = std::vector<std::string>;
 
-/// Columns as wide as they need, the first to the left and the others to the right. Rows of equal length.
+/// Makes each column as wide as needed. The first column is left-aligned, the others right-aligned. All rows
+/// have the same length.
 std::string text_table(const std::vector<TextRow>& rows);
 
-/// A cell with this many decimals, or "-". Values that do not fit into a column are written in powers of ten.
+/// A number with this many decimals, or "-" if empty. A number that is too long for a column is written with
+/// an exponent.
 std::string number_cell(const std::optional<double>& value, int decimals);
 
 }  // namespace harness

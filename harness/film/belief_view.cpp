@@ -21,8 +21,7 @@ constexpr std::size_t others_read = 256;  // [-] landmarks out of view that each
 // The number of scans between two refreshes grows with the cost of a refresh, so that the mean cost of a scan
 // is bounded.
 constexpr std::size_t landmarks_for_each_scan = 50;  // [-] reading the matrix takes a pass over the map
-constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly the square of
-                                                                 // the map
+constexpr std::size_t squared_landmarks_for_each_scan = 12'500;  // [-] marginals cost nearly its square
 constexpr std::size_t most_refreshed = 10'000;  // [-] landmarks; larger maps are not read as a whole
 // Approximate limits of what a frame draws.
 constexpr std::size_t most_links = 2000;     // [-] the strongest links

@@ -26,7 +26,7 @@ struct Gaze {
   Frustum frustum;
   Area area;             // [m] the ground in view
   float scale;           // [-] factor for lengths in pixels
-  float mark_scale;      // [-] factor for marks of which there are thousands: smaller if the camera is far
+  float mark_scale;      // [-] the same for marks that come by the thousands: smaller if the camera is far
                          // away
   double smallest_mark;  // [m] anything shorter is hidden behind the dot of a landmark
 };

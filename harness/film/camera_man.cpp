@@ -93,8 +93,7 @@ render::Camera CameraMan::overview() const {
   const auto shift_for = [&](double distance) {
     return bisect(-0.5 * diagonal, 0.5 * diagonal, [&](double shift) {
       const Extent extent = extent_at(distance, shift);
-      return extent.max.y() + extent.min.y() < 0.0;  // the subject is too low on the image: the camera aims
-                                                     // too far
+      return extent.max.y() + extent.min.y() < 0.0;  // too low on the image: the camera aims too far
     });
   };
   // Nearer than half a diagonal, some corners may lie behind the camera.

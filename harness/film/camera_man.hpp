@@ -37,8 +37,7 @@ class CameraMan {
 
   CameraBrief brief_;
   bool has_followed_ = false;
-  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] point that the camera follows: the robot's
-                                                        // position, smoothed
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] point to follow: the robot's position, smoothed
   double heading_ = 0.0;                                // [rad] the robot's heading, smoothed
   double film_t_ = 0.0;                                 // [s]
 };
@@ -60,8 +59,7 @@ class Frustum {
  private:
   Eigen::Vector3d eye_;
   Eigen::Vector3d right_, up_, forward_;  // unit length
-  double tan_x_, tan_y_;                  // tangent of half the field of view [-]; orthographic: half the
-                                          // extent [m]
+  double tan_x_, tan_y_;                  // [-] of half the field of view; orthographic: half the extent [m]
   bool is_orthographic_;
 };
 

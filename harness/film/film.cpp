@@ -19,8 +19,7 @@ using Eigen::Vector2d;
 
 constexpr double same_time = 1e-9;      // [s] times this close are the same
 constexpr double longest = 40.0;        // [s] film time, if no speed is given
-constexpr double past_notes = 60.0;     // [-] number of times at which charts are updated before the first
-                                        // frame
+constexpr double past_notes = 60.0;     // [-] updates of the charts before the first frame
 constexpr double farthest_view = 12.0;  // [-] in units of the radius of interest around the robot
 
 double between(double from, double to, double share) { return from + share * (to - from); }
@@ -211,8 +210,7 @@ seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
 Gaze Film::gaze_of(const render::Camera& camera) const {
   constexpr double full_size = 12.0;  // [px/m] landmark marks have full size above this scale ...
   constexpr double smallest =
-      0.4;  // [-] ... and at least this share of it below, so that the marks of a whole map do not cover the
-            // map
+      0.4;  // [-] ... and at least this share of it below: the marks of a whole map must not cover the map
   constexpr double dot = 2.6;      // [px] radius
   constexpr double nearest = 3.0;  // [-] things near the camera may look this much larger than at the target
   const Frame& view = layout_.views.front();

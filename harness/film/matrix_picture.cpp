@@ -29,9 +29,7 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
     blocks += couplings_.size() + 1;
     for (const seif::Coupling& coupling : couplings_) {
       const auto other = numbers_.find(coupling.other);
-      if (other == numbers_.end() && coupling.other != seif::no_landmark)
-        continue;  // the film has not seen
-                   // this landmark
+      if (other == numbers_.end() && coupling.other != seif::no_landmark) continue;  // unknown to the film
       const std::size_t j = other == numbers_.end() ? 0 : other->second;
       line[cell(j)] = std::max(line[cell(j)], static_cast<float>(coupling.strength));
     }

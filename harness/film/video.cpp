@@ -33,8 +33,7 @@ constexpr std::string_view vp9 =
 /// Makes a palette for each frame, so that ffmpeg need not keep the film in memory. No dithering: its pattern
 /// changes from frame to frame, and plain areas flicker.
 std::string gif(int fps) {
-  constexpr int highest_rate = 50;  // [1/s] GIF counts in 1/100 s, and players slow down frames of a single
-                                    // tick
+  constexpr int highest_rate = 50;  // [1/s] GIF counts in 1/100 s; players slow down frames of one tick
   return fmt::format(
       "-filter_complex {}split[frames][same];[same]palettegen=stats_mode=single[palettes];"
       "[frames][palettes]paletteuse=new=1:dither=none -loop 0 -f gif",

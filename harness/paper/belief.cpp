@@ -23,7 +23,7 @@ Eigen::MatrixXd inverse_of(const LiveEstimator& estimator, const Eigen::MatrixXd
 
 Eigen::Index row_of(int landmark) { return 3 + 2 * landmark; }
 
-/// The block of the matrix for landmark `to` and what it may be linked to.
+/// The block of the matrix between landmark `to` and `from`, the robot or a landmark.
 auto block_of(const Eigen::MatrixXd& M, int from, int to) {
   return from == robot ? M.block(row_of(to), 0, 2, 3) : M.block(row_of(to), row_of(from), 2, 2);
 }

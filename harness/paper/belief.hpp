@@ -1,4 +1,4 @@
-// The whole belief of an estimator at the end of a run, beside the truth, and its network of links.
+// The whole belief of an estimator at the end of a run, with the truth, and the network of its links.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,34 +11,36 @@
 
 namespace harness {
 
-/// Matrices are (3+2N x 3+2N), [x y theta | landmarks], landmarks in the order in which they joined the map.
+/// Matrices are (3+2N x 3+2N), [x y theta | landmarks], with the landmarks in the order in which they joined
+/// the map.
 struct Belief {
-  std::string estimator;  // its name
+  std::string estimator;  // name of the estimator
   PosePair pose;
   std::vector<PointPair> landmarks;
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd information;
 };
 
-/// Throws std::runtime_error if the estimator has failed, keeps no matrix, or one that is not positive
-/// definite, or if its map has a landmark that the world does not have.
+/// Reads the belief. Throws std::runtime_error if the estimator has failed, has no matrix or no positive
+/// definite one, or if its map has a landmark that the world does not have.
 Belief belief_of(const LiveEstimator& estimator, std::span<const TrueLandmark> truth,
                  const seif::Pose2& true_pose);
 
-/// |M_ij| / sqrt(M_ii M_jj): of a covariance the correlations. The diagonal of `M` is positive.
+/// |M_ij| / sqrt(M_ii M_jj). For a covariance these are the absolute correlations. The diagonal of `M` is
+/// positive.
 Eigen::MatrixXd normalised(const Eigen::MatrixXd& M);
 
-inline constexpr int robot = -1;  // for a landmark's number
+inline constexpr int robot = -1;  // in the place of a landmark's number
 
 /// A block of the information matrix that is not zero.
 struct NetworkLink {
-  int from = robot;       // a landmark's number in the belief, or the robot
-  int to = 0;             // a landmark's number, larger than `from`
+  int from = robot;       // number of a landmark in the belief, or the robot
+  int to = 0;             // number of a landmark, larger than `from`
   double strength = 0.0;  // [-] in (0, 1]: its largest normalised entry
 };
 
-/// All links between landmarks, and of the robot, the weakest first. `normalised_information` is
-/// (3+2N x 3+2N).
+/// All links between landmarks and to the robot, the weakest first. `normalised_information` is (3+2N x
+/// 3+2N).
 std::vector<NetworkLink> links_of(const Eigen::MatrixXd& normalised_information);
 
 }  // namespace harness

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> drawn = {"ekf", "seif_report", "seif"};
 
-/// Where the robot really is.
+/// Keeps the robot's last true pose.
 class LastTruth final : public RunListener {
  public:
   void odometry(const OdometryEvent& event) override { note(event.truth); }

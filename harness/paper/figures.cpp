@@ -16,21 +16,21 @@ namespace harness {
 
 namespace {
 
-constexpr double enlargement = 5.0;  // [-] of errors and ellipses, which are too small to see
+constexpr double enlargement = 5.0;  // [-] of errors and ellipses, which would be too small to see
 constexpr double sigmas = 2.0;       // [-]
 constexpr int panel = 300;           // [px]
-constexpr double margin = 1.5;       // [m] round the landmarks
-constexpr double faintest = 0.12;    // [-] share of its colour that the weakest link has
+constexpr double margin = 1.5;       // [m] around the landmarks
+constexpr double faintest = 0.12;    // [-] share of its colour that the weakest link keeps
 
-// One setting for every panel: a map has equal axes; of a matrix dark entries are the strong ones, and the
-// root of an entry tells its darkness where nearly all of them are weak.
+// The settings of all panels. A map has equal axes. In a matrix dark entries are strong; where nearly all
+// entries are weak, the square root of an entry gives its darkness.
 constexpr const char* settings =
     "set style fill transparent solid 0.15\n"
     "set palette defined (0 'white', 1 'black')\nset cbrange [0:1]\nunset colorbox\n"
     "set tmargin 2\nset bmargin 1.5\nset lmargin 4\nset rmargin 1\nset tics scale 0.4 font ',8'\n"
     "set border lc '#888888'\nset tics textcolor '#333333'\nset key off\n";
 
-/// `share` of the colour on white paper.
+/// The colour mixed with white; `share` is the share of the colour.
 Rgb faded(Rgb colour, double share) {
   Rgb result = 0;
   for (const int shift : {0, 8, 16}) {
@@ -42,11 +42,12 @@ Rgb faded(Rgb colour, double share) {
 
 struct Mark {
   Eigen::Vector2d truth;
-  Eigen::Vector2d error;       // estimate less truth
+  Eigen::Vector2d error;       // estimate minus truth
   Eigen::Matrix2d covariance;  // of the error
 };
 
-/// A line: truth, error, and the full axes and angle [deg] of the ellipse; error and ellipse enlarged.
+/// Writes one line: truth, error, and the full axes and the angle [deg] of the ellipse. Error and ellipse are
+/// enlarged.
 void append_mark(const Mark& mark, std::string& text) {
   const Eigen::Matrix2d axes = 2 * enlargement * ellipse_axes(mark.covariance, sigmas);
   const Eigen::Vector2d error = enlargement * mark.error;
@@ -56,7 +57,7 @@ void append_mark(const Mark& mark, std::string& text) {
                  180 / std::numbers::pi * std::atan2(major.y(), major.x()));
 }
 
-/// The landmarks, and then the robot with its heading in a block of its own.
+/// The landmarks, then the robot with its heading in a second block.
 std::string marks_of(const Belief& belief, std::size_t number) {
   std::string text = fmt::format("$marks{} << EOD\n", number);
   for (std::size_t i = 0; i < belief.landmarks.size(); ++i) {
@@ -76,7 +77,7 @@ std::string marks_of(const Belief& belief, std::size_t number) {
                             truth.y, std::cos(truth.theta), std::sin(truth.theta));
 }
 
-/// A line for each link: from where, by how much, colour.
+/// One line for each link: start, difference, colour.
 std::string network_of(const Belief& belief, std::size_t number) {
   const auto place = [&](int landmark) -> Eigen::Vector2d {
     if (landmark == robot) return {belief.pose.est_pose.x, belief.pose.est_pose.y};
@@ -121,7 +122,7 @@ std::string title_of(const Belief& belief, std::string_view what) {
   return gnuplot_text(fmt::format("{}: {}", name, what));
 }
 
-/// A square that holds the whole map, the same for all filters.
+/// The axes of a square that holds the whole map, the same for all filters.
 std::string map_axes(const Belief& belief) {
   double reach = 0.0;
   for (const PointPair& landmark : belief.landmarks)

@@ -1,4 +1,4 @@
-// The report's figures 1, 2 and 6, of beliefs of ours.
+// Figures 1, 2 and 6 of the report, drawn from our beliefs.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@
 
 namespace harness {
 
-/// Map, correlations and normalised information, side by side.
+/// Map, correlations and normalised information side by side.
 Picture figure_1(const Belief& ekf);
 
 /// The normalised information of a sparse filter, and the network of its links.
 Picture figure_2(const Belief& seif);
 
-/// A row for each filter: map, links, correlations, normalised information.
+/// One row for each filter: map, links, correlations, normalised information.
 Picture figure_6(std::span<const Belief> beliefs);
 
 }  // namespace harness

@@ -34,9 +34,9 @@ const PaperRow* paper_row(std::string_view estimator) {
 std::vector<std::string> paper_overrides(const PaperPlan& plan) {
   std::vector<std::string> overrides = {
       fmt::format("physics.engine={}", plan.physics ? "bullet" : "kinematic"),
-      // With the 5 m of the file some landmarks are never seen; the report's EKF has all 50.
+      // With the 5 m of the world file some landmarks are never seen; the report's EKF has all 50.
       "sensors.landmark_sensor.max_range_m=6",
-      "scoring.interval_s=1000",  // at the end alone
+      "scoring.interval_s=1000",  // at the end only
       fmt::format("estimators={{{}}}", all_estimators()),
   };
   overrides.insert(overrides.end(), plan.overrides.begin(), plan.overrides.end());

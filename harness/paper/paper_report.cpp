@@ -102,7 +102,7 @@ TextRow nees_row(const EstimatorComparison& estimator) {
           value_cell(estimator.nees_landmark, 2), interval_cell(estimator.nees_landmark, 2)};
 }
 
-/// How an estimator is set, if it has such an option.
+/// The value of an option of an estimator; "-" if it has no such option.
 std::string setting(const worlds::World& world, const std::string& estimator, const std::string& option) {
   const auto choice = std::ranges::find(world.estimators, estimator, &worlds::EstimatorChoice::name);
   if (choice == world.estimators.end()) return "-";

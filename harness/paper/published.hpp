@@ -1,4 +1,4 @@
-// The figures of section 4 of the 2002 report.
+// The numbers of section 4 of the 2002 report.
 #pragma once
 
 #include <array>
@@ -7,18 +7,18 @@
 
 namespace harness {
 
-/// A row of its table. Half the width of a 95 % interval follows the value that it belongs to.
+/// A row of the report's table. Half the width of a 95 % interval follows its value.
 struct PublishedRow {
-  std::string_view estimator;        // the type that is ours
+  std::string_view estimator;        // our type for this filter
   int runs = 0;                      // [-]
-  double error = 0.0;                // [1e-3, unit not said] "final error"
+  double error = 0.0;                // [1e-3, unit not given] "final error"
   double error_half = 0.0;           //
   double links = 0.0;                // [-]
-  std::optional<double> links_half;  // [-] nothing: none is given
-  std::string_view update;           // how its time grows
+  std::optional<double> links_half;  // [-] empty: not given
+  std::string_view update;           // growth of the update's time
 };
 
-/// The report prints the number of runs of the last row as "1,00".
+/// The last row's number of runs is printed as "1,00".
 inline constexpr std::array<PublishedRow, 3> published_rows = {{
     {"ekf", 1'000, 5.54, 0.67, 1'275, {}, "O(N^2)"},
     {"seif_exact", 1'000, 4.75, 0.67, 549, 1.60, "O(N^3)"},

@@ -16,7 +16,8 @@ mrpt::math::CMatrixDouble33 matrix_of(const std::array<double, 9>& values) {
   return matrix;
 }
 
-/// Derived from for its state alone: it begins at the origin, without doubt.
+/// Derives from MRPT's class only to set its state, which otherwise begins at the origin with zero
+/// covariance.
 class Filter final : public MrptFilter, private mrpt::slam::CRangeBearingKFSLAM2D {
  public:
   explicit Filter(const MrptSetup& setup) {
@@ -53,7 +54,7 @@ class Filter final : public MrptFilter, private mrpt::slam::CRangeBearingKFSLAM2
   }
 
  private:
-  /// It takes in no motion before it has a landmark.
+  /// MRPT does not process motions before it has a landmark.
   void move_start(const mrpt::poses::CPosePDFGaussian& motion) {
     mrpt::poses::CPosePDFGaussian pose;
     getCurrentRobotPose(pose);
@@ -67,7 +68,7 @@ class Filter final : public MrptFilter, private mrpt::slam::CRangeBearingKFSLAM2
     observation->sensorLocationOnRobot = sensor_;
     observation->fieldOfView_yaw = static_cast<float>(2.0 * std::numbers::pi);
     for (const Sighting& sighting : seen) {
-      // It leaves out of its predictions what the sensor cannot reach: the farthest that it has reached so
+      // MRPT predicts only landmarks within the sensor's range. That range is set to the largest range so
       // far.
       reach_ = std::max(reach_, static_cast<float>(sighting.range));
       observation->sensedData.push_back({static_cast<float>(sighting.range),

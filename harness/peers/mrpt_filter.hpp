@@ -1,5 +1,5 @@
-// MRPT's range-bearing EKF-SLAM behind an interface of plain numbers: it stands in a module of its own,
-// compiled with other flags than the program that loads it.
+// MRPT's range-bearing EKF-SLAM behind an interface of plain numbers. It is a module of its own, compiled
+// with other flags than the program that loads it.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace peers {
 
-/// A pose, or a motion from the pose before.
+/// A pose, or a motion since the last pose.
 struct Gaussian {
   std::array<double, 3> mean = {};        // x y theta [m, m, rad]
   std::array<double, 9> covariance = {};  // (3 x 3) [m, rad]
@@ -19,7 +19,7 @@ struct Sighting {
   double bearing = 0.0;  // [rad]
 };
 
-/// MRPT takes one measurement noise for all.
+/// MRPT uses one measurement noise for all observations.
 struct SensorNoise {
   double range_sd = 0.0;    // [m]
   double bearing_sd = 0.0;  // [rad]
@@ -28,25 +28,25 @@ struct SensorNoise {
 struct MrptSetup {
   Gaussian start;                              // T_world_robot
   std::array<double, 3> sensor_on_robot = {};  // T_robot_sensor: x y theta [m, m, rad]
-  bool one_scalar_at_once = false;             // kfEKFAlaDavison in the place of kfEKFNaive
+  bool one_scalar_at_once = false;             // kfEKFAlaDavison instead of kfEKFNaive
 };
 
-/// The state is [x y theta m1x m1y ...], in the order in which the landmarks joined it.
+/// The state is [x y theta m1x m1y ...], with the landmarks in the order in which they joined it.
 class MrptFilter {
  public:
   virtual ~MrptFilter() = default;
 
-  /// Takes in the motion since the last update and the observations after it: at least one.
+  /// Processes the motion since the last update, and the observations after it, of at least one landmark.
   virtual void update(const Gaussian& motion, std::span<const Sighting> seen, const SensorNoise& noise) = 0;
 
   virtual std::span<const double> mean() const = 0;
   virtual double covariance(int row, int column) const = 0;
 
-  /// The number of the landmark at an index, from 0.
+  /// The number of the landmark at a place in the state, from 0.
   virtual int landmark_at(int place) const = 0;
 };
 
 }  // namespace peers
 
-/// What the module exports; the caller owns it.
+/// Exported by the module. The caller owns the result.
 extern "C" peers::MrptFilter* seifbed_make_mrpt_filter(const peers::MrptSetup& setup);

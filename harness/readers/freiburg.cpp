@@ -13,7 +13,7 @@ namespace harness {
 
 namespace {
 
-constexpr double freiburg_start_sd = 1e-3;  // [m, rad] the robot begins at the origin
+constexpr double freiburg_start_sd = 1e-3;  // [m, rad] the robot starts at the origin
 
 std::vector<TrueLandmark> read_world(const std::filesystem::path& file) {
   RowReader rows(file, ' ');

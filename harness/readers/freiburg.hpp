@@ -1,4 +1,4 @@
-// The log of the Freiburg course "Robot Mapping": sensor_data.dat, and world.dat beside it where it is known.
+// The log of the Freiburg course "Robot Mapping": sensor_data.dat, and world.dat beside it if it exists.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace harness {
 
-/// A step is a second: the log has no times. It begins at the origin of world.dat. All functions throw
-/// BadInput.
+/// The log has no times, so a step counts as a second. The robot starts at the origin of world.dat. All
+/// functions throw BadInput.
 class FreiburgLog final : public RecordedLog {
  public:
   explicit FreiburgLog(const std::filesystem::path& sensor_data);
 
-  /// docs/datasets.md.
+  /// See docs/datasets.md.
   static LogNoise default_noise();
 
   const LogDescription& description() const override { return description_; }
@@ -30,7 +30,7 @@ class FreiburgLog final : public RecordedLog {
   LogDescription description_;
   ReadCounts counts_;
   RowReader rows_;
-  bool row_left_ = false;  // rows_ stands on a row that no event has been made of
+  bool row_left_ = false;  // the current row of rows_ has not been used yet
   double t_ = 0.0;         // [s]
   ScanMemory memory_;
 };

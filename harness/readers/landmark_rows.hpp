@@ -1,4 +1,4 @@
-// Landmarks and observations row by row, shared by the readers of other formats.
+// Landmarks and observations by rows: helpers for the readers of several formats.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace harness {
 
 inline constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
 
-/// Landmarks by id; the file calls the id `name`. Throws BadInput for an id that stands there twice.
+/// Sorts by id; the file calls the ids `name`. Throws BadInput if an id occurs twice.
 void sort_by_id(std::vector<TrueLandmark>& landmarks, const std::filesystem::path& file,
                 std::string_view name);
 
-/// A scan without observations.
+/// Starts a scan without observations.
 void begin_scan(ScanEvent& event, double t, const std::optional<TruePose>& truth);
 
-/// Adds an observation, unless the scan has the landmark already: then counts and ignores it.
+/// Adds an observation. A second one of the same landmark is counted and left out.
 void add_once(const seif::Observation& observation, ScanEvent& event, ReadCounts& counts);
 
 }  // namespace harness

@@ -41,7 +41,7 @@ bool has_any(const worlds::Node& document, const std::array<std::string_view, Co
   return false;
 }
 
-/// All that was chosen, as one document.
+/// Everything that was chosen, as one document.
 worlds::Node document_of(const NoiseChoices& choices, std::vector<worlds::Problem>& problems) {
   worlds::Node root;
   root.kind = worlds::Node::Kind::map;
@@ -79,7 +79,7 @@ LogNoise read_noise(const NoiseChoices& choices, const LogNoise& fallback) {
   if (has_any(document, odometry_keys)) noise.odometry = noise.odometry.value_or(OdometryNoise{});
   if (has_any(document, sensor_keys)) noise.sensor = noise.sensor.value_or(SensorNoise{});
   const auto describe_all = [&](worlds::Fields& fields) {
-    // Keys of noise that stays unchanged are known, but their values are not used.
+    // Noise that stays as recorded: its keys are allowed, but their values are not used.
     OdometryNoise no_odometry;
     SensorNoise no_sensor{1.0, 0.0, 1.0};
     describe(fields, noise.odometry ? *noise.odometry : no_odometry);

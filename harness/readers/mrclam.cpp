@@ -14,8 +14,8 @@ namespace harness {
 namespace {
 
 constexpr seif::LandmarkId last_robot = 5;  // subjects 1 to 5 are robots
-constexpr double truth_gap = 0.5;           // [s] the cameras took a picture every hundredth
-constexpr double mrclam_start_sd = 0.01;    // [m, rad] of the motion capture, with room
+constexpr double truth_gap = 0.5;           // [s] the cameras took a picture every 0.01 s
+constexpr double mrclam_start_sd = 0.01;    // [m, rad] of the motion capture, with a margin
 
 std::map<std::int64_t, seif::LandmarkId> read_barcodes(const std::filesystem::path& file) {
   RowReader rows(file, ' ');

@@ -1,4 +1,4 @@
-// A folder of the UTIAS Multi-Robot Cooperative Localization and Mapping Dataset, for one of its robots.
+// A folder of the UTIAS Multi-Robot Cooperative Localization and Mapping Dataset, seen by one of its robots.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace harness {
 
-/// Barcodes, landmarks and truth come from the folder. The start is the truth if it is known, else the
-/// origin. All functions throw BadInput.
+/// Barcodes, landmarks and truth come from the folder. The start is the true pose if it is known, otherwise
+/// the origin. All functions throw BadInput.
 class MrclamLog final : public VelocityLog {
  public:
   MrclamLog(const std::filesystem::path& folder, int robot);
 
   static bool is_in(const std::filesystem::path& folder);
 
-  /// Chosen on dataset 6, all five robots: docs/datasets.md. Larger than the noise of one measurement,
-  /// because the errors at one place are nearly the same.
+  /// Chosen on dataset 6 with all five robots: docs/datasets.md. The noise is larger than the errors of
+  /// single measurements, because errors at one place are much alike.
   static LogNoise default_noise();
 
  protected:

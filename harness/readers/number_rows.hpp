@@ -1,4 +1,4 @@
-// Tables of numbers with a time, from robots that sometimes write invalid rows.
+// Tables of numbers with a time column, from robots that sometimes write invalid values.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace harness {
 
-/// The next line that is neither a comment nor empty; it may have at most this many cells.
+/// The next line that is neither a comment nor empty, with at most `cells` cells.
 bool next_row(RowReader& rows, std::size_t cells);
 
-/// The next row whose numbers are all finite and whose time, in column `Time`, does not go back. Other rows are
-/// ignored and counted. Throws BadInput for text that is not a number.
+/// The next row of finite numbers whose time, in column `Time`, does not go back. Other rows are left out and
+/// counted. Throws BadInput for a cell that is not a number.
 template <std::size_t Time = 0, std::size_t Columns>
 std::optional<std::array<double, Columns>> next_numbers(RowReader& rows,
                                                         const std::array<std::string_view, Columns>& names,

@@ -45,7 +45,7 @@ LogFormat format_of_folder(const std::filesystem::path& folder) {
   return LogFormat::own;
 }
 
-/// By the first record.
+/// Recognises the format by the first record.
 LogFormat format_of_file(const std::filesystem::path& file) {
   RowReader rows(file, ' ');
   while (rows.next()) {
@@ -127,13 +127,13 @@ LogNoise default_noise(LogFormat format) {
 }
 
 std::string default_settings(LogFormat format) {
-  // Some of the other filters would take hours over a long log.
+  // Some of the other filters would take hours for a long log.
   if (format == LogFormat::own) return "estimators: {ekf: {}, seif: {}, seif_report: {}}";
-  if (format == LogFormat::victoria_park) {  // trees without names, and many objects that are no trees
+  if (format == LogFormat::victoria_park) {  // trees without ids, and many false detections
     const std::string chosen = "{association: joint, admit_after: 8, forget_after: 5, remove_below: 0.2}";
     return fmt::format("estimators: {{ekf: {0}, seif: {0}}}", chosen);
   }
-  if (format == LogFormat::mrclam)  // with misread barcodes
+  if (format == LogFormat::mrclam)  // some barcodes are misread
     return "estimators: {ekf: {gate: 30}, seif: {gate: 30}}";
   return "estimators: {ekf: {}, seif: {}}";
 }

@@ -1,4 +1,4 @@
-// Recognises the format of a log, and opens it as a stream.
+// Logs of all formats: finds the format and opens the log as a stream.
 #pragma once
 
 #include <filesystem>
@@ -13,35 +13,35 @@
 namespace harness {
 
 enum class LogFormat {
-  own,           // a folder as docs/log_format.md describes it
-  mrclam,        // a folder of the UTIAS multi-robot data sets
-  graph,         // poses and landmarks, of iSAM or g2o
+  own,           // a folder as described in docs/log_format.md
+  mrclam,        // a folder of the UTIAS multi-robot dataset
+  graph,         // poses and landmarks, from iSAM or g2o
   freiburg,      // sensor_data.dat
-  victoria_park  // car odometry and trees
+  victoria_park  // odometry of a car, and trees
 };
 
-/// A log as chosen on the command line.
+/// The log as given on the command line.
 struct LogChoice {
   std::filesystem::path path = {};
-  std::string format = {};                          // empty: told by the content
-  std::optional<int> robot = {};                    // of MRCLAM; 1 if left out
-  std::optional<std::filesystem::path> truth = {};  // of graphs: the same graph without noise
+  std::string format = {};                          // empty: recognised by the content
+  std::optional<int> robot = {};                    // for MRCLAM; 1 if empty
+  std::optional<std::filesystem::path> truth = {};  // for graphs: the same graph without noise
   NoiseChoices noise = {};
 };
 
 /// The names of the formats.
 std::vector<std::string> log_format_names();
 
-/// Throws BadInput if the content has no known format.
+/// The format of a log. Throws BadInput if the content is of no known format.
 LogFormat format_of(const LogChoice& choice);
 
-/// Throws BadInput: `file:line:column: reason`, or what does not fit the format.
+/// Opens a log. Throws BadInput: `file:line:column: reason`, or an option that does not fit the format.
 std::unique_ptr<RecordedLog> open_log(const LogChoice& choice);
 
-/// The default noise for a log of this format; nothing where the log states it.
+/// The default noise for logs of this format; empty where the log gives its own.
 LogNoise default_noise(LogFormat format);
 
-/// The settings for replaying a log without settings of its own, as YAML: estimators with their options.
+/// The default settings for a replay of such a log, as YAML: estimators with their options.
 std::string default_settings(LogFormat format);
 
 }  // namespace harness

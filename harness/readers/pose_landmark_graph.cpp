@@ -16,9 +16,9 @@ namespace harness {
 
 namespace {
 
-constexpr double graph_start_sd = 1e-3;  // [m, rad] the frame is the first pose's
+constexpr double graph_start_sd = 1e-3;  // [m, rad] the frame is that of the first pose
 
-/// An upper triangle, row by row; zero below.
+/// An upper triangle, row by row, with zeros below.
 template <int Size>
 Eigen::Matrix<double, Size, Size> upper_triangle(const RowReader& rows, std::size_t cell) {
   Eigen::Matrix<double, Size, Size> matrix = Eigen::Matrix<double, Size, Size>::Zero();
@@ -28,7 +28,7 @@ Eigen::Matrix<double, Size, Size> upper_triangle(const RowReader& rows, std::siz
   return matrix;
 }
 
-/// From the information matrix, or from R with R' R the information matrix.
+/// The covariance from the information matrix, or from R, where R' R is the information matrix.
 template <int Size>
 Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size_t cell,
                                                 bool is_square_root) {
@@ -44,7 +44,8 @@ Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size
   return covariance;
 }
 
-/// g2o counts the error of a motion in the frame of its end, iSAM in that of its beginning, as we do.
+/// g2o gives the error of a motion in the frame of its end. iSAM gives it in the frame of its beginning, as
+/// we do.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double theta) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // R_begin_end
   R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(theta).toRotationMatrix();
@@ -54,7 +55,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double theta) {
 bool is_vertex(std::string_view word) { return word.starts_with("VERTEX") || word == "FIX"; }
 bool is_isam_motion(std::string_view word) { return word == "ODOMETRY" || word == "EDGE2"; }
 
-/// As range and bearing; the covariance to first order.
+/// Converts a point to range and bearing, with the covariance to first order.
 seif::Observation observation_of(const GraphEdge& edge) {
   const seif::PredictedObservation seen = seif::predict_observation({}, {}, edge.p_from_landmark);
   const Eigen::Matrix2d& J = seen.J_wrt_landmark;
@@ -86,7 +87,7 @@ std::optional<GraphEdge> GraphEdges::next() {
   return std::nullopt;
 }
 
-/// Reads rows of the requested kind; another reader takes the other rows.
+/// The next edge of the wanted kind. Rows of the other kind are skipped.
 std::optional<GraphEdge> GraphEdges::read_edge() {
   while (rows_.next()) {
     const std::string_view word = rows_.cell(0);
@@ -129,7 +130,7 @@ PoseLandmarkGraph::PoseLandmarkGraph(const std::filesystem::path& file,
                                      const std::optional<std::filesystem::path>& truth)
     : motions_(file, GraphEdges::Kind::motions), landmarks_(file, GraphEdges::Kind::landmarks) {
   description_.name = file.stem().string();
-  description_.noise = {1.0, 0.0, 1.0};  // every observation has a covariance of its own
+  description_.noise = {1.0, 0.0, 1.0};  // every observation has its own covariance
   description_.start.covariance = graph_start_sd * graph_start_sd * Eigen::Matrix3d::Identity();
   next_motion_ = motions_.next();
   next_landmark_ = landmarks_.next();
@@ -145,7 +146,7 @@ PoseLandmarkGraph::PoseLandmarkGraph(const std::filesystem::path& file,
   description_.true_start = true_pose_;
 }
 
-/// Each where it is seen from for the first time.
+/// Places each true landmark where it is first seen.
 void PoseLandmarkGraph::read_true_landmarks(const std::filesystem::path& file) {
   PoseLandmarkGraph graph(file, std::nullopt);
   std::map<seif::LandmarkId, Eigen::Vector2d> landmarks;

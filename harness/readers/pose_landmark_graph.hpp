@@ -1,4 +1,4 @@
-// Graphs of poses and landmarks as text, in the order of time: the formats of iSAM and g2o.
+// Graphs of poses and landmarks as text files of iSAM and g2o, with edges in the order of time.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 
 namespace harness {
 
-/// A motion from one pose to the next, or a landmark as seen from a pose; the numbers are the file's.
+/// A motion from one pose to the next, or a landmark as seen from a pose. The numbers are those of the file.
 struct GraphEdge {
-  std::int64_t from = 0;  // a pose
-  std::int64_t to = 0;    // the next pose, or the landmark
-  seif::Pose2 T_from_to;  // of a motion
+  std::int64_t from = 0;  // number of a pose
+  std::int64_t to = 0;    // number of the next pose, or of the landmark
+  seif::Pose2 T_from_to;  // for a motion
   Eigen::Vector2d p_from_landmark = Eigen::Vector2d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of a motion
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // for a motion
   Eigen::Matrix2d point_covariance = Eigen::Matrix2d::Zero();
 };
 
-/// The motions of a file, or the landmarks that were seen, one by one. Throws BadInput for malformed rows,
-/// and for a motion that does not begin where the previous one ended.
+/// Reads the motions of a file, or its observations of landmarks, one by one. Throws BadInput for a malformed
+/// row, and for a motion that does not start where the one before it ended.
 class GraphEdges {
  public:
   enum class Kind { motions, landmarks };
@@ -43,13 +43,14 @@ class GraphEdges {
 
   RowReader rows_;
   Kind kind_;
-  std::optional<std::int64_t> pose_;  // where the last edge led, or began
+  std::optional<std::int64_t> pose_;  // the last pose of the last edge
   std::int64_t not_finite_ = 0;
 };
 
-/// A step is a second: graphs have no times. Landmarks are turned into ranges and bearings, their covariances
-/// to first order. Pose and map begin at the origin. Motions and observations may stand in one file in any
-/// mixture, but each in its order, so that two passes through the file at the same time need no memory.
+/// A graph has no times, so a step counts as a second. Landmarks are converted to range and bearing, with
+/// covariances to first order. Pose and map start at the origin. Motions and observations may be mixed in one
+/// file, but each kind must be in order: two passes through the file at the same time then need no memory for
+/// it.
 class PoseLandmarkGraph final : public RecordedLog {
  public:
   /// `truth`, if given, is the same graph without noise. All functions throw BadInput.
@@ -68,10 +69,10 @@ class PoseLandmarkGraph final : public RecordedLog {
   ReadCounts counts_;
   GraphEdges motions_;
   GraphEdges landmarks_;
-  std::unique_ptr<GraphEdges> true_motions_;  // where there is a truth
+  std::unique_ptr<GraphEdges> true_motions_;  // null: the truth is not known
   std::optional<GraphEdge> next_motion_;
   std::optional<GraphEdge> next_landmark_;
-  std::int64_t pose_ = 0;  // the present one's number
+  std::int64_t pose_ = 0;  // number of the present pose
   double t_ = 0.0;         // [s]
   std::optional<TruePose> true_pose_;
   ScanMemory memory_;

@@ -10,9 +10,9 @@ namespace harness {
 
 namespace {
 
-constexpr double longest_hold = 0.5;  // [s] rows come every few hundredths; what is longer counts as a gap
+constexpr double longest_hold = 0.5;  // [s] rows come every few hundredths of a second; more is a gap
 
-/// As that of two wheels one metre apart.
+/// The arc of a robot with two wheels one metre apart.
 seif::Pose2 arc(const VelocityRow& velocity, double duration) {
   const double way = velocity.v * duration;
   const double half_turn = 0.5 * velocity.omega * duration;
@@ -54,7 +54,7 @@ std::optional<TruePose> VelocityLog::truth_at(double t) {
 }
 
 bool VelocityLog::next(Event& event) {
-  while (next_velocity_ && next_velocity_->t <= t_) {  // several rows of one time: the last holds
+  while (next_velocity_ && next_velocity_->t <= t_) {  // of several rows with the same time the last counts
     now_ = *next_velocity_;
     advance_velocity();
   }
@@ -73,7 +73,7 @@ bool VelocityLog::next(Event& event) {
   return true;
 }
 
-/// Observations from before the first velocity, and from after the last one.
+/// Leaves out observations before the first velocity and after the last one.
 void VelocityLog::leave_out_what_nothing_leads_to() {
   const auto is_outside = [this](double t) { return t < 0.0 || (t > t_ && !next_velocity_); };
   while (next_observation_ && is_outside(since_start(next_observation_->t))) {
@@ -82,7 +82,7 @@ void VelocityLog::leave_out_what_nothing_leads_to() {
   }
 }
 
-/// Gathers the observations of one time.
+/// Gathers the observations with the same time into one scan.
 void VelocityLog::fill(ScanEvent& event) {
   begin_scan(event, t_, truth_at(t_));
   for (; next_observation_ && since_start(next_observation_->t) == t_; next_observation_ = read_observation())

@@ -1,4 +1,4 @@
-// Logs of velocities and observations at different times; shared by their readers.
+// Logs with velocities and observations at different times: the common part of their readers.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace harness {
 
-/// The robot's motion from a time on, until the next row.
+/// The velocity from a time on, until the next row.
 struct VelocityRow {
   double t = 0.0;      // [s]
-  double v = 0.0;      // [m/s] ahead
+  double v = 0.0;      // [m/s] forward
   double omega = 0.0;  // [rad/s] counter-clockwise
 };
 
@@ -20,8 +20,8 @@ struct ObservationRow {
   seif::Observation observation;
 };
 
-/// Puts the rows of two or three files into one stream. Between two rows of velocities the robot drives an
-/// arc; where a scan comes in between, the arc is cut there. Observations of the same time are one scan.
+/// Merges the rows of two or three files into one stream. Between two velocity rows the robot drives an arc;
+/// a scan in between cuts the arc in two. Observations with the same time are one scan.
 class VelocityLog : public RecordedLog {
  public:
   const LogDescription& description() const final { return description_; }
@@ -29,17 +29,17 @@ class VelocityLog : public RecordedLog {
   ReadCounts counts() const final { return counts_; }
 
  protected:
-  /// The next row of each kind, in the order of time; nothing at the end.
+  /// The next row of each kind, in the order of time; empty at the end.
   virtual std::optional<VelocityRow> read_velocity() = 0;
   virtual std::optional<ObservationRow> read_observation() = 0;
   virtual std::optional<TruePose> read_truth() { return std::nullopt; }
 
-  /// Reads the first rows; the time and the truth of the start are then in description_. To be called once by
-  /// a constructor, when all else of the description stands.
+  /// Reads the first rows and enters the time and truth of the start into description_. A constructor must
+  /// call it once, after the rest of the description is complete.
   void begin();
 
-  /// A time relative to the first velocity, rounded so that subtracting two large numbers leaves no noise in the
-  /// last digits. [s]
+  /// The time since the first velocity, without the rounding error that the difference of two large numbers
+  /// leaves. [s]
   double since_start(double t) const;
 
   LogDescription description_;
@@ -51,7 +51,7 @@ class VelocityLog : public RecordedLog {
   void fill(ScanEvent& event);
   std::optional<TruePose> truth_at(double t);
 
-  double zero_ = 0.0;  // [s] the time of the first velocity in the log
+  double zero_ = 0.0;  // [s] time of the first velocity in the log
   double t_ = 0.0;     // [s] of the last event
   VelocityRow now_;
   std::optional<VelocityRow> next_velocity_;

@@ -11,13 +11,13 @@ namespace harness {
 
 namespace {
 
-// The car of Guivant and Nebot.
+// The car of Guivant and Nebot. L, H, a and b are their symbols.
 constexpr double wheel_base = 2.83;   // [m] L, from axle to axle
 constexpr double half_track = 0.76;   // [m] H, from the middle of the rear axle to the wheel with the encoder
-constexpr double laser_ahead = 3.78;  // [m] a, of the rear axle
+constexpr double laser_ahead = 3.78;  // [m] a, from the rear axle forward
 constexpr double laser_beside = 0.5;  // [m] b, to the left
 constexpr double park_start_sd = 1e-3;   // [m, rad] the frame is that of the first pose
-constexpr double widest_steering = 1.2;  // [rad] no car steers as far; the model has a pole at 1.3
+constexpr double widest_steering = 1.2;  // [rad] no car steers that far; the model has a pole at 1.3
 
 }  // namespace
 

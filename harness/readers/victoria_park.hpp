@@ -1,4 +1,4 @@
-// The drive through Victoria Park as a car's speeds and steering angles and as trees without names.
+// The Victoria Park data set: speeds and steering angles of a car, and trees without ids.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace harness {
 
-/// The robot's origin is the middle of the rear axle; the sensor is the laser. Nobody knows which tree an
-/// observation is of: description().known_association is false. All functions throw BadInput.
+/// The robot's origin is the middle of the rear axle; the sensor is the laser. The true tree of an
+/// observation is not known: description().known_association is false. All functions throw BadInput.
 class VictoriaParkLog final : public VelocityLog {
  public:
   explicit VictoriaParkLog(const std::filesystem::path& folder);
@@ -30,8 +30,8 @@ class VictoriaParkLog final : public VelocityLog {
   std::optional<double> observation_t_;  // [s]
 };
 
-/// How the middle of the rear axle moves when the rear left wheel rolls at `wheel_speed` [m/s] and the car
-/// steers by `steering` [rad], left positive.
+/// The velocity of the middle of the rear axle. The left rear wheel rolls at `wheel_speed` [m/s], and the car
+/// steers by `steering` [rad], positive to the left.
 VelocityRow car_velocity(double t, double wheel_speed, double steering);
 
 }  // namespace harness

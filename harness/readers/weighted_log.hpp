@@ -10,7 +10,7 @@ namespace harness {
 
 class WeightedLog final : public RecordedLog {
  public:
-  /// Where `noise` is empty, the covariances of the log stay.
+  /// A part that `noise` leaves empty keeps the recorded covariances.
   WeightedLog(std::unique_ptr<RecordedLog> log, const LogNoise& noise);
 
   const LogDescription& description() const override { return description_; }

@@ -59,7 +59,7 @@ Recorder::EstimatorFiles Recorder::open_estimator(const std::string& name) const
                 "t,nees_pose,nees_landmark,landmarks_scored,landmarks_mapped,memory_bytes")};
 }
 
-/// Odometry and a scan at one time share a row.
+/// Odometry and a scan at the same time share a row.
 void Recorder::truth(const std::optional<TruePose>& truth) {
   if (!truth || !truth_ || (last_truth_t_ && *last_truth_t_ == truth->t)) return;
   last_truth_t_ = truth->t;
@@ -119,7 +119,7 @@ void Recorder::update(std::size_t estimator, const UpdateRecord& record) {
   if (record.associations) associations(files, record);
 }
 
-/// Row by row as observations.csv.
+/// The rows are those of observations.csv, one for one.
 void Recorder::associations(EstimatorFiles& files, const UpdateRecord& record) const {
   if (!files.associations)
     files.associations.emplace(folder_ / (files.name + "_associations.csv"), "t,landmark");

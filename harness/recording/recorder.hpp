@@ -1,4 +1,4 @@
-// Writes a run to its folder as it goes. The files are those of docs/log_format.md.
+// Writes a run to its folder while it runs. The files are described in docs/log_format.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ namespace harness {
 
 inline constexpr std::string_view no_header;  // TUM files have none
 
-/// A row of a TUM file: t x y z and the quaternion x y z w.
+/// Writes a row of a TUM file: t x y z and the quaternion x y z w.
 void write_pose(CsvWriter& file, double t, const seif::Pose2& T_world_robot);
 
 /// All files of one run. Every function throws std::system_error if something cannot be written.
@@ -33,9 +33,9 @@ class Recorder final : public RunListener {
   void dead_reckoning(double t, const seif::Pose2& T_world_robot) override;
   void update(std::size_t estimator, const UpdateRecord& record) override;
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override;
-  /// Hands everything to the operating system, so that it survives a crash of the program.
+  /// Flushes all files to the operating system. The record up to here survives the end of the program.
   void scored() override;
-  /// Writes ESTIMATOR_map.csv.
+  /// Writes `ESTIMATOR_map.csv`.
   void map(std::size_t estimator, std::span<const MapRecord> landmarks) override;
 
   void close();
@@ -49,7 +49,7 @@ class Recorder final : public RunListener {
     CsvWriter steps;
     CsvWriter times;
     CsvWriter consistency;
-    std::optional<CsvWriter> associations = {};  // of one that gives names of its own
+    std::optional<CsvWriter> associations = {};  // for an estimator that names landmarks by itself
   };
 
   EstimatorFiles open_estimator(const std::string& name) const;

@@ -37,7 +37,7 @@ void add_file(Fnv1a& hash, const std::filesystem::path& path) {
 
 std::string file_name_of(std::string_view name) {
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-  constexpr std::size_t longest = 100;  // [byte] well below what file systems take, with room for a suffix
+  constexpr std::size_t longest = 100;  // [byte] well below file systems' limits, with room for a suffix
   std::string result(name.substr(0, longest));
   for (char& c : result) {
     if (allowed.find(c) == std::string_view::npos) c = '_';
@@ -49,7 +49,7 @@ std::string file_name_of(std::string_view name) {
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name) {
   std::filesystem::create_directories(parent);
   std::filesystem::path folder = parent / name;
-  // create_directory is one mkdir: true only for whoever made it.
+  // create_directory is one mkdir: only the process that makes the folder gets true.
   for (int next = 2; !std::filesystem::create_directory(folder); ++next)
     folder = parent / fmt::format("{}-{}", name, next);
   return folder;

@@ -1,4 +1,4 @@
-// The folder of a run: a second run never destroys a first.
+// The folder of a run. A second run never overwrites the first.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace harness {
 
-/// `name` with everything but letters, digits, '.', '_' and '-' replaced: fit to be one part of a path.
+/// A name that can be part of a path: every character but letters, digits, '.', '_' and '-' is replaced.
 std::string file_name_of(std::string_view name);
 
-/// Creates parent/name, or, if that exists, parent/name-2, parent/name-3, ...: the first unused one.
-/// Two programs at the same time get two folders. Throws std::filesystem::filesystem_error.
+/// Creates the first free folder of parent/name, parent/name-2, parent/name-3, ... Two programs at the same
+/// time get two folders. Throws std::filesystem::filesystem_error.
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name);
 
-/// Creates this very folder, or takes it if it is there and empty; otherwise throws BadInput.
+/// Creates exactly this folder, or uses it if it exists and is empty. Otherwise throws BadInput.
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 
-/// folder/name, or, if that exists, the same with -2, -3, ... before its extension: the first unused one.
+/// The first free path of folder/name and the same with -2, -3, ... before the extension.
 std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-/// A temporary folder, removed with its content.
+/// A temporary folder. It is deleted with its contents when the object is destroyed.
 class TemporaryFolder {
  public:
   TemporaryFolder();  // throws std::system_error
@@ -36,9 +36,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A hash (16 hex digits) over the names and bytes of a run's measurements and estimates: truth.csv, odometry.csv,
-/// observations.csv, all *.tum and all *_map.csv, in the order of their names (FNV-1a, 64 bits). Equal for a
-/// run and its repetition or replay. Throws std::system_error if a file cannot be read.
+/// 16 hex digits over the names and bytes of what a run saw and estimated: truth.csv, odometry.csv,
+/// observations.csv, all *.tum and all *_map.csv, sorted by name (FNV-1a, 64 bits). A run and its repetition
+/// or replay have the same hash. Throws std::system_error if a file cannot be read.
 std::string trajectory_hash(const std::filesystem::path& folder);
 
 }  // namespace harness

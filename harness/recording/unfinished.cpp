@@ -19,19 +19,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The next line if its end was written too.
+/// The next line; false if its line end is missing.
 bool next_whole_line(std::ifstream& file, std::string& line) {
   return std::getline(file, line) && !file.eof();
 }
 
-/// The time with which a row begins; nothing for a header.
+/// The time at the beginning of a row; empty for a header.
 std::optional<double> time_of(const std::string& row) {
   double t = 0.0;
   const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), t);
   return error == std::errc{} ? std::optional(t) : std::nullopt;
 }
 
-/// Up to where a table is whole. Rows of equal time belong together: of the last ones some may be missing.
+/// The last time for which a table is complete. In a table with groups of rows of equal time, the last group
+/// may be incomplete.
 double reach_of(const fs::path& table, bool has_groups) {
   constexpr double nothing = -std::numeric_limits<double>::infinity();
   double last = nothing;
@@ -46,7 +47,7 @@ double reach_of(const fs::path& table, bool has_groups) {
   return has_groups ? before_last : last;
 }
 
-/// Whether the rows of this file begin with a time.
+/// True if the rows of this file begin with a time.
 bool is_timed(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name == "landmarks.csv" || name == "commands.csv" || name.ends_with("_map.csv")) return false;

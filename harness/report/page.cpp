@@ -15,7 +15,7 @@ namespace {
 
 using Places = std::map<std::string_view, std::string>;
 
-/// Fills {{name}} once each; what is put in is not looked at again.
+/// Replaces each {{name}} once; the inserted text is not searched again.
 std::string filled(std::string_view text, const Places& places) {
   std::string result;
   while (true) {
@@ -113,7 +113,7 @@ std::string listing_html(const Listing& listing) {
                      escaped(listing.text));
 }
 
-/// JSON inside of <script>, where nothing but "</script" and "<!--" ends it.
+/// JSON for a script element. Only "</script" and "<!--" could end the element.
 std::string data_json(const Page& page) {
   const auto list = [](const auto& figures) {
     std::string json;

@@ -1,4 +1,4 @@
-// A page: one HTML file with everything that it needs.
+// A report page: one HTML file that includes everything it needs.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,10 @@ struct Fact {
 struct Table {
   std::string title = {};
   std::vector<TextRow> rows = {};  // the first is the header
-  std::string note = {};           // below; empty: none
+  std::string note = {};           // text below the table; empty: none
 };
 
-/// A long text, unchanged, folded away.
+/// A long text, shown unchanged and folded by default.
 struct Listing {
   std::string title = {};
   std::string text = {};
@@ -34,7 +34,7 @@ struct Page {
   std::string title = {};
   std::vector<Fact> facts = {};
   std::vector<Table> tables = {};   // above the figures
-  std::vector<Table> details = {};  // below them
+  std::vector<Table> details = {};  // below the figures
   std::vector<Figure> figures = {};
   std::vector<MatrixFigure> matrices = {};
   std::string matrices_note = {};
@@ -42,14 +42,14 @@ struct Page {
   std::vector<Listing> listings = {};
 };
 
-/// Larger films are linked instead of embedded. [byte]
+/// A larger film is linked and not included in the page. [byte]
 inline constexpr std::uintmax_t largest_film = 8'000'000;
 
-/// `file` is where the page will be, for the link to a film that is too large for it; `library` the text of
-/// Chart.js. Throws std::system_error if the film cannot be read.
+/// The page as HTML. `file` is the later path of the page, for the link to a film that is too large to
+/// include. `library` is the text of Chart.js. Throws std::system_error if the film cannot be read.
 std::string to_html(const Page& page, const std::filesystem::path& file, std::string_view library);
 
-/// Text as text in HTML, and in its attributes.
+/// Escapes text for HTML, and for attributes of HTML.
 std::string escaped(std::string_view text);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The pages of the folders that the program writes.
+// Report pages for the folders that the program writes.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,10 @@
 
 namespace harness {
 
-// All throw BadInput if a file of the folder is missing or broken.
+// All these functions throw BadInput if a file of the folder is missing or broken.
 
-/// The page of a run or replay. With `replays` the run is replayed for scores that its folder does not hold.
+/// The page of a run or a replay. If `replays` is true, the run is replayed for scores that the folder does
+/// not hold.
 Page run_page(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 
 /// The page of a finished sweep.
@@ -19,7 +20,7 @@ Page sweep_page(const std::filesystem::path& folder);
 /// The page of a stress test.
 Page stress_page(const std::filesystem::path& folder);
 
-/// The page for the content of the folder.
+/// The page for the kind of folder that this is.
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 
 }  // namespace harness

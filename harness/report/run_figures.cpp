@@ -29,7 +29,7 @@ FigureCurve curve_of(const Drawn& estimator, Mark mark, Points points) {
   return {estimator.name, estimator.colour, mark, std::move(points.x), std::move(points.y)};
 }
 
-/// Ignores values that are not finite.
+/// Leaves out a point that is not finite.
 void add(double x, double y, Points& points) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
   points.x.push_back(x);
@@ -73,7 +73,7 @@ void add_map(const std::filesystem::path& folder, const Drawn& estimator, const 
   if (!ellipses.x.empty()) figure.curves.push_back(std::move(ellipses));
 }
 
-/// Returns those that are left out, so that none of them is drawn where an estimator has it.
+/// Returns the landmarks that are left out, so that they are left out for the estimators too.
 Ids add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
   Ids left_out;
   if (!std::filesystem::exists(file)) return left_out;
@@ -106,7 +106,7 @@ Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>&
   return figure;
 }
 
-/// Distance and angle between estimate and truth.
+/// The distance and the angle between estimate and truth.
 std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::vector<Drawn> moving) {
   std::array<Figure, 2> figures = {
       Figure{.id = "position-error",
@@ -131,7 +131,8 @@ std::array<Figure, 2> error_figures(const std::filesystem::path& folder, std::ve
           curve_of(one, Mark::line, smallest_and_largest(std::move(points.at(i)), most_bins)));
     }
   }
-  if (figures[1].curves.size() > 1) figures[1].curves.front().is_hidden = true;  // as large as a circle
+  if (figures[1].curves.size() > 1)
+    figures[1].curves.front().is_hidden = true;  // its error may be as large as a circle
   return figures;
 }
 

@@ -9,17 +9,17 @@
 
 namespace harness {
 
-/// An estimator and how it is drawn.
+/// An estimator and the colour in which it is drawn.
 struct Drawn {
   std::string name;
   Rgb colour = 0;
 };
 
-/// Map, errors, NEES and update times, as far as the folder has them. Throws BadInput if a
+/// Map, errors, NEES and update times, except for those that the folder has no data for. Throws BadInput if a
 /// file is missing or broken.
 std::vector<Figure> run_figures(const std::filesystem::path& folder, const std::vector<Drawn>& estimators);
 
-/// The estimators with the colours of their types, or with others where two have the same.
+/// The estimators with the colours of their types. Where two would have the same colour, they get others.
 std::vector<Drawn> drawn(const std::vector<std::string>& names, const std::vector<std::string>& types);
 
 }  // namespace harness

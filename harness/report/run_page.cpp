@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const Summary& summary) {
   return names;
 }
 
-/// The types of the estimators where the settings of the run name them; otherwise their names.
+/// The types of the estimators, if the run's settings give them; otherwise their names.
 std::vector<std::string> types_of(const std::filesystem::path& folder, const std::vector<std::string>& names,
                                   const seif::Registry& registry) {
   std::vector<std::string> types = names;
@@ -99,7 +99,7 @@ MatrixFigure matrix_of(const LiveEstimator& estimator) {
   return figure;
 }
 
-/// What a replay tells: scores into `details`, and the matrices as they are at the end.
+/// Adds the results of a replay: scores to `details`, and the final matrices.
 void add_replayed(const std::filesystem::path& folder, const Summary& summary, const seif::Registry& registry,
                   RunDetails& details, Page& page) {
   const TemporaryFolder replayed;

@@ -24,7 +24,7 @@ std::optional<Percentiles> percentiles_of(const Json& json) {
   return Percentiles{json.at("p50"), json.at("p95"), json.at("p99"), json.at("max")};
 }
 
-/// What the plot needs of stress.json.
+/// The part of stress.json that the plot needs.
 std::vector<StressRow> rows_of(const Json& json) {
   std::vector<StressRow> rows;
   for (const Json& from : json.at("rows")) {

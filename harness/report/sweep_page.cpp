@@ -54,7 +54,7 @@ std::vector<Drawn> estimators_of(const Aggregate& aggregate) {
   return drawn(names, names);
 }
 
-/// An upright line with a short one at either end.
+/// A vertical line with a short cap at both ends.
 void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& curve) {
   constexpr double half_cap = 0.02;
   for (const auto& [px, py] : {std::pair(x - half_cap, interval.low), std::pair(x + half_cap, interval.low),
@@ -66,7 +66,7 @@ void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& cur
   }
 }
 
-/// The means of a score over the settings, each estimator a little beside the others.
+/// The means of a score over the settings. The estimators are drawn slightly beside each other.
 Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
                     const std::vector<Drawn>& estimators) {
   Figure figure{.id = score.id, .title = score.title, .y = score.axis};

@@ -70,8 +70,7 @@ struct Rebuilding {
   std::vector<std::string> estimators;      // names in the run, or types
   std::optional<double> interval = {};      // [s] between scoring times; empty: as in the run
   std::vector<std::string> overrides = {};  // of the settings
-  bool is_other = false;                    // estimators that the run did not have, so there is no record to
-                                            // compare with
+  bool is_other = false;                    // estimators that the run did not have: nothing to compare with
 };
 
 /// Replays a run. `look` sees the estimators when the replay has ended. Throws BadInput, NotReplayed if the

@@ -17,8 +17,7 @@ struct ReplayChoices {
   std::vector<std::string> estimators;  // only these: names from world.yaml, or types; empty: all of the file
   std::vector<std::string> overrides;   // path.to.key=value, for estimators, scoring, film and seed
   std::string seed;                     // checked together with the settings; empty: the file's seed
-  std::string defaults = {};            // settings for a log without a world.yaml or replay.yaml; empty: the
-                                        // defaults
+  std::string defaults = {};            // for a log without world.yaml or replay.yaml; empty: our own
 };
 
 /// Reads the settings from the log's world.yaml or replay.yaml. If the log has neither, it takes those of

@@ -21,7 +21,7 @@ namespace harness {
 
 struct DetailChoices {
   std::vector<double> distances = {1.0, 5.0, 10.0};  // [m] path lengths of the relative pose error
-  double away = 20.0;                                // [s] seeing a landmark again after this time closes a
+  double away = 20.0;                                // [s] not seen for this long: the next sighting closes a
                                                      // loop
   /// The folder of `ESTIMATOR_consistency.csv`; empty: the run's own folder.
   std::filesystem::path consistency;
@@ -34,10 +34,8 @@ struct EstimatorDetails {
   std::optional<MapCounts> map;                    // if the world's landmarks are known
   std::optional<double> landmark_rmse_from_robot;  // [m] when the run ends
   std::size_t poses_scored = 0;                    // [-] times at which the pose has a NEES
-  std::optional<double> pose_inside;               // [-] share of these times with the NEES inside the
-                                                   // chi-square band
-  std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks with the NEES
-                                                   // inside their band
+  std::optional<double> pose_inside;               // [-] share of these times inside the chi-square band
+  std::optional<double> landmarks_inside;          // [-] share of the final map's landmarks inside theirs
   RebuiltScore rebuilt;                            // from a replay, if there was one
   std::optional<DistanceFromReference> from_reference;  // if the user asked for a reference
   std::array<std::optional<double>, response_updates.size()> closure_error = {};  // [m] error of the position

@@ -34,13 +34,11 @@ ScanNisScore score_scans(std::span<const ScanNis> scans);
 struct RebuiltScore {
   std::optional<double> nis;                             // [-] mean over the observations
   std::size_t observations = 0;                          // [-] observations that have a NIS
-  std::optional<double> nis_inside;                      // [-] share of these observations inside the
-                                                         // chi-square band
+  std::optional<double> nis_inside;                      // [-] share of them inside the chi-square band
   ScanNisScore scans;                                    // the same for whole scans
   std::optional<double> nees_landmark_from_robot;        // [-] mean over the scoring times
   std::optional<double> nees_landmark_from_robot_final;  // [-] when the run ends
-  std::optional<double> landmarks_from_robot_inside;  // [-] share of the sample inside the band when the run
-                                                      // ends
+  std::optional<double> landmarks_from_robot_inside;  // [-] share of the sample inside the band, at the end
 };
 
 /// The NEES, per degree of freedom, of a landmark's position in the robot's frame. `joint` is the covariance

@@ -28,8 +28,7 @@ struct PointPair {
 /// Root mean square distance between estimated and true points; empty if there are no points.
 struct PointScore {
   std::optional<double> rmse;          // [m] without alignment
-  std::optional<double> rmse_aligned;  // [m] after the rigid motion that brings the estimate closest to the
-                                       // truth
+  std::optional<double> rmse_aligned;  // [m] after the rigid motion that brings the points closest
 };
 
 PointScore score_points(std::span<const PointPair> points);

@@ -26,27 +26,21 @@ struct EstimatorScore {
   std::optional<double> nees_pose_final;      // [-]
   std::optional<double> nees_landmark;        // [-] mean over the scoring times
   std::optional<double> nees_landmark_final;  // [-]
-  int improper_beliefs = 0;                   // [-] scoring times at which the covariance was not positive
-                                              // definite
+  int improper_beliefs = 0;                   // [-] scoring times without a positive definite covariance
   std::optional<double> improper_t;           // [s] the first of these times
   std::optional<double> diverged_t;           // [s] the innovation test first fired
-  std::optional<double> worst_nis;            // [-] the largest normalised innovation squared of a window of
-                                              // scans
-  std::optional<double> diverged_nees_t;      // [s] the first scoring time at which the pose's NEES was too
-                                              // high
+  std::optional<double> worst_nis;            // [-] largest normalised innovation squared of a window
+  std::optional<double> diverged_nees_t;      // [s] first scoring time with too high a NEES of the pose
   std::optional<Percentiles> update_us;       // [us]
   std::array<std::optional<Percentiles>, stage_count> stage_us;  // [us]
   std::optional<Percentiles> blocks_touched;                     // [-] in one update
   std::optional<std::int64_t> links;                             // [-] after the last update
   std::optional<std::int64_t> links_max;                         // [-]
   std::optional<std::int64_t> relocations;                       // [-] total of the run
-  std::optional<std::int64_t> gated;                             // [-] observations that the gate left out,
-                                                                 // total of the run
-  std::optional<std::int64_t> weakened;                          // [-] observations with reduced weight,
-                                                                 // total of the run
+  std::optional<std::int64_t> gated;                             // [-] observations left out by the gate
+  std::optional<std::int64_t> weakened;                          // [-] observations with reduced weight
   std::optional<double> associations_right;     // [-] share of the estimator's own associations
-  std::optional<double> associations_left_out;  // [-] share of the observations that the estimator gave no
-                                                // landmark
+  std::optional<double> associations_left_out;  // [-] share of the observations left without landmark
   std::optional<Percentiles> mean_residual;     // [-] after an update
   std::optional<double> anchoring;              // [nat] discarded by sparsification, total of the run
   std::optional<std::int64_t> active_max;       // [-]

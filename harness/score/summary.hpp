@@ -22,8 +22,7 @@ struct Summary {
   std::string trajectory_hash;
   double realtime_factor = 0.0;                                  // [-] simulated time over real time
   double rpe_interval = 0.0;                                     // [s]
-  std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out, if
-                                                                 // anything
+  std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out
   std::vector<std::pair<std::string, std::int64_t>> left_out;    // what no estimator was given, if anything
   std::optional<double> left_out_t;                              // [s] time of the first event in `left_out`
   RunScore score;

@@ -51,8 +51,7 @@ std::optional<Associations> read_associations(const std::filesystem::path& folde
 /// landmark.
 struct ScoredMap {
   std::vector<MapRecord> landmarks;
-  int duplicates = 0;  // [-] landmarks left out, because another one with more right observations is the same
-                       // landmark
+  int duplicates = 0;  // [-] left out: another one with more right observations is the same landmark
 };
 
 ScoredMap read_scored_map(const std::filesystem::path& folder, const std::string& estimator);

@@ -12,8 +12,7 @@ constexpr double arrived = 0.05;           // [m] a stopping place this near is 
 constexpr double begin_turn = 1.2;         // [rad] a target further aside makes the robot turn on the spot
 constexpr double end_turn = 0.15;          // [rad] the turn ends when the target is this nearly ahead
 constexpr double turn_gain = 2.0;          // [1/s] turn rate for each radian that is left
-constexpr double shortest_segment = 1e-3;  // [m] nearer points are merged, so that the work of a step is
-                                           // bounded
+constexpr double shortest_segment = 1e-3;  // [m] nearer points are merged, which bounds the work of a step
 constexpr double slowest = 0.05;           // [m/s] lowest speed before a stop
 constexpr double turning_back =
     -0.5;  // [-] cosine of 120 degrees: at a sharper corner the robot stops and turns

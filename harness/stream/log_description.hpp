@@ -35,8 +35,8 @@ struct LogDescription {
   // What the log holds besides odometry and observations.
   bool has_truth = false;
   bool has_wheel_angles = false;                       // the truth has wheel angles
-  bool has_true_ids = false;                           // true ids of the observations, where the id is
-                                                       // withheld or the detection is false
+  bool has_true_ids = false;                           // of observations with a withheld id or a false
+                                                       // detection
   std::optional<TruePose> true_start;                  // true pose at start_t
   std::optional<std::vector<TrueLandmark>> landmarks;  // sorted by id
 };

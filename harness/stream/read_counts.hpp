@@ -17,8 +17,7 @@ struct ReadCounts {
   std::int64_t negative_ranges = 0;   // observations with a negative range: left out
   std::int64_t backwards = 0;         // rows with an earlier time than the row above: left out
   std::int64_t without_odometry = 0;  // observations before the first or after the last odometry: left out
-  std::int64_t odometry_gaps = 0;     // gaps above the reader's limit: the last command is assumed to
-                                      // continue
+  std::int64_t odometry_gaps = 0;     // gaps above the reader's limit: the last command continues
   std::int64_t truth_gaps = 0;        // gaps above the reader's limit: the truth is not known in them
 };
 

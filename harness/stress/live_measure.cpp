@@ -17,10 +17,10 @@ namespace {
 
 void start_at(worlds::World& world, const seif::Pose2& T_world_robot) {
   world.robot.start = {{T_world_robot.x, T_world_robot.y}, T_world_robot.theta};
-  world.seed += 1;  // noise of its own, not once more that of the way here
+  world.seed += 1;  // new noise, not that of the warm start again
 }
 
-/// How many of the updates are measured at a place.
+/// The number of updates to measure at a place.
 std::int64_t share_of(std::int64_t updates, std::int64_t place, std::int64_t places) {
   return updates * (place + 1) / places - updates * place / places;
 }
@@ -35,7 +35,7 @@ LivePlace live_place(const StressPlan& plan, const worlds::World& world, std::in
   return place;
 }
 
-/// All places, with one estimator or none. Between them it drives on as in a warm start.
+/// Measures at all places, with one estimator or none. Between two places it drives on as in a warm start.
 LiveSamples measure_places(const StressPlan& plan, worlds::World world, const WarmStart& warm,
                            Believers& believers, const std::atomic<bool>& stop) {
   LiveSamples all(plan.updates, world);
@@ -99,7 +99,7 @@ void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart&
                   const std::atomic<bool>& stop, StressRow& row) {
   std::vector<LiveEstimator>& estimators = warm.believers->estimators;
   std::vector<StressEstimator> measured;
-  // The last one is the row's own: it is the first of the list.
+  // In reverse order, because the row's own values are those of the first estimator.
   for (std::size_t left = std::max<std::size_t>(estimators.size(), 1); left-- > 0;) {
     Believers alone;
     StressPlan its_plan = plan;

@@ -1,4 +1,4 @@
-// The measured part: everything live in Bullet, each stage with its clock.
+// The measured part of a stress test: everything live in Bullet, with a clock for each stage.
 #pragma once
 
 #include <atomic>
@@ -8,9 +8,9 @@
 
 namespace harness {
 
-/// Continues the filters of `warm` in `world`, from the robot's present pose, and fills in the row. Each runs
-/// alone, on the same stream: beside a filter that uses all of the caches, any other would be slow. Everything
-/// else in the row is measured with the first filter.
+/// Continues with the filters of `warm` in `world`, from the robot's position, and fills in the row. Each
+/// filter runs alone on the same stream: a filter that uses up the whole cache would slow down any other. The
+/// row's remaining values are measured with the first filter.
 void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart& warm,
                   const std::atomic<bool>& stop, StressRow& row);
 

@@ -34,8 +34,8 @@ std::int64_t steps_in(std::int64_t updates, const worlds::World& world) {
   return static_cast<std::int64_t>(duration * world.physics.step_rate) + 1;
 }
 
-/// A stream whose scans are timed: no physics step lies between an odometry reading and the scan after it,
-/// because the scans' rate divides the odometry's.
+/// A stream whose scans are timed. No physics step lies between an odometry reading and the scan after it,
+/// because the odometry's rate is a multiple of the scans' rate.
 class TimedScans final : public Stream {
  public:
   TimedScans(Stream& stream, LiveSamples& samples) : stream_(stream), samples_(samples) {}
@@ -52,7 +52,7 @@ class TimedScans final : public Stream {
   LiveSamples& samples_;
 };
 
-/// What each update cost, and how right the estimator is in the end.
+/// Records the cost of each update and the estimator's score at the end.
 class UpdateMeter final : public RunListener {
  public:
   explicit UpdateMeter(LiveSamples& samples) : samples_(samples) {}
@@ -69,19 +69,19 @@ class UpdateMeter final : public RunListener {
   LiveSamples& samples_;
 };
 
-/// Everything between two scans, and what grows meanwhile.
+/// Measures the time between scans, and the growth of memory.
 class Cycles {
  public:
   Cycles(std::int64_t updates, std::vector<double>& us) : updates_(updates), us_(us) {}
 
-  /// After each scan.
+  /// Must be called after each scan.
   void end() {
     us_.push_back(us_since(begin_));
     if (std::ssize(us_) == updates_ / 5) settled_bytes_ = resident_bytes();
     begin_ = Clock::now();
   }
 
-  /// Since the first fifth. [byte]
+  /// Growth of memory since the first fifth of the updates. [byte]
   double growth() const { return settled_bytes_ > 0.0 ? resident_bytes() - settled_bytes_ : 0.0; }
 
  private:
@@ -91,7 +91,7 @@ class Cycles {
   Clock::time_point begin_ = Clock::now();
 };
 
-/// What of each cycle is neither physics nor scan nor estimator.
+/// Computes the part of each cycle that is neither physics nor scan nor estimator.
 void find_rest(LiveSamples& samples) {
   samples.rest_us.assign(samples.cycle_us.begin(), samples.cycle_us.end());
   const std::size_t steps_each =

@@ -1,4 +1,4 @@
-// One place on the round of a stress test: everything live in Bullet, each stage with its clock.
+// One place on the round of a stress test: everything live in Bullet, with a clock for each stage.
 #pragma once
 
 #include <atomic>
@@ -14,39 +14,40 @@
 
 namespace harness {
 
-/// The measurements at one place, or at all places so far.
+/// The measurements at one place, or of all places so far.
 struct LiveSamples {
-  /// Reserves and touches memory for this many updates: taking samples must not look like growth.
+  /// Reserves and touches memory for this number of updates, so that taking samples does not look like
+  /// growth.
   LiveSamples(std::int64_t expected_updates, const worlds::World& world);
 
   void add(const LiveSamples& other);
 
-  std::vector<double> step_us;    // physics steps
-  std::vector<double> scan_us;    // scans
-  std::vector<double> update_us;  // of the estimator, if there is one
-  std::vector<double> rest_us;    // rest of a cycle from scan to scan: everything else
-  std::vector<double> cycle_us;   // whole cycles
+  std::vector<double> step_us;    // of physics steps
+  std::vector<double> scan_us;    // of scans
+  std::vector<double> update_us;  // of the estimator's updates, if there is an estimator
+  std::vector<double> rest_us;    // of the rest of a cycle, from scan to scan
+  std::vector<double> cycle_us;   // of whole cycles
   std::vector<double> blocks;     // [-] touched by each update
   sim::SimulatorCounts counts;
   std::int64_t updates = 0;
   double t = 0.0;              // [s] simulated
-  double wall_s = 0.0;         // [s] it took
+  double wall_s = 0.0;         // [s] real time
   double process_bytes = 0.0;  // resident at the end, with the simulator
-  double growth_bytes = 0.0;   // of these, after the first fifth
-  double build_s = 0.0;        // [s] building the simulator took
-  ConsistencyRecord last;      // the score at the end, if it was asked for
-  seif::Pose2 T_world_robot;   // where the robot is then
+  double growth_bytes = 0.0;   // increase of process_bytes after the first fifth
+  double build_s = 0.0;        // [s] time to build the simulator
+  ConsistencyRecord last;      // scores at the end, if asked for
+  seif::Pose2 T_world_robot;   // robot's pose at the end
 };
 
 struct LivePlace {
-  worlds::World world;           // in which the robot starts there
+  worlds::World world;           // the robot starts at this place
   std::int64_t updates = 0;      // [-] to be measured
-  std::filesystem::path folder;  // of the record
-  bool is_scored = false;        // at the end
+  std::filesystem::path folder;  // for the record
+  bool is_scored = false;        // score at the end
   bool quiet = false;
 };
 
-/// Ends early if `stop` is set.
+/// Measures at one place. Ends early if `stop` is set.
 LiveSamples measure_place(const LivePlace& place, Believers& believers,
                           const std::function<void()>& after_each_update, const std::atomic<bool>& stop);
 

@@ -4,7 +4,7 @@
 namespace harness {
 
 /// Resident memory after the allocator has returned what it does not need. [byte] 0 if the system does not
-/// report it.
+/// give it.
 double resident_bytes();
 
 }  // namespace harness

@@ -10,16 +10,16 @@
 
 namespace harness {
 
-/// The median time of a stage against the number of landmarks.
+/// The median time of a stage as a function of the number of landmarks.
 struct StageScaling {
   std::string name;
   std::vector<double> landmarks;  // [-]
-  std::vector<double> us;         // p50
-  /// The slope of log time against log landmarks: 0 is constant time, 2 is a dense filter.
+  std::vector<double> us;         // median times
+  /// Slope of log time over log landmarks. 0 is constant time, 2 is that of a dense filter.
   std::optional<Estimate> slope;
 };
 
-/// Physics step, scan, rest, each estimator under its name, and the simulated second as a whole.
+/// The physics step, the scan, the rest, each estimator by name, and the whole simulated second.
 std::vector<StageScaling> scaling_of(const std::vector<StressRow>& rows);
 
 }  // namespace harness

@@ -33,7 +33,7 @@ double length_of(const std::vector<Eigen::Vector2d>& round) {
   return length;
 }
 
-/// Writes the world file into the row's folder and reads it; the resolved file takes its place.
+/// Writes the world file to the row's folder and reads it. The resolved file then replaces it.
 worlds::World load(const StressPlan& plan, const seif::Registry& registry) {
   const std::filesystem::path file = plan.folder / "world.yaml";
   write_whole_file(file, stress_world(plan.world));
@@ -49,7 +49,7 @@ bool is_beyond_limit(const StressPlan& plan, const std::string& estimator, std::
   return limit != plan.most_landmarks.end() && landmarks > limit->second;
 }
 
-/// Takes out the estimators whose limit the world is beyond.
+/// Removes the estimators for which this world is too large.
 void skip_beyond_limits(const StressPlan& plan, worlds::World& world, StressRow& row) {
   std::erase_if(world.estimators, [&](const worlds::EstimatorChoice& estimator) {
     if (!is_beyond_limit(plan, estimator.name, plan.world.landmarks)) return false;
@@ -61,10 +61,10 @@ void skip_beyond_limits(const StressPlan& plan, worlds::World& world, StressRow&
   });
 }
 
-/// By estimator, what it took in the largest world so far.
+/// For each estimator, the cost in the largest world so far.
 using Demands = std::map<std::string, std::string>;
 
-/// What is skipped by a limit says what it took where it still took part.
+/// For an estimator that is skipped because of its limit, tells its cost in the last world in which it ran.
 void tell_demands(const StressPlan& plan, StressRow& row, Demands& demands) {
   for (StressEstimator& estimator : row.estimators) {
     if (estimator.update_us) {
@@ -77,7 +77,7 @@ void tell_demands(const StressPlan& plan, StressRow& row, Demands& demands) {
   }
 }
 
-/// What was given up in one world would be given up in a larger one too.
+/// An estimator that was given up in one world is skipped in larger worlds.
 void skip_larger(StressPlan& plan, const std::string& estimator, std::int64_t landmarks) {
   const auto limit = plan.most_landmarks.try_emplace(estimator, landmarks).first;
   limit->second = std::min(limit->second, landmarks);

@@ -1,4 +1,4 @@
-// The time of each stage against the number of landmarks, as a picture.
+// A plot of the time of each stage over the number of landmarks.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace harness {
 
-/// Median times, on logarithmic axes.
+/// The median times on logarithmic axes.
 Figure scaling_figure(const std::vector<StageScaling>& stages);
 
-/// Draws it as time.png and time.svg in this folder, with gnuplot. What went wrong, or nothing. There is
-/// nothing to draw for a single number of landmarks.
+/// Draws the plot as time.png and time.svg in this folder, with gnuplot. Returns an error message, or
+/// nothing. A single number of landmarks gives no plot.
 std::string draw_scaling(const std::vector<StageScaling>& stages, const std::filesystem::path& folder);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// A stress test as tables and as JSON.
+// The results of a stress test as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace harness {
 
 std::string stress_tables(const StressPlan& plan, const StressResult& result);
 
-/// Values that are not available are null.
+/// A value that is not available is null.
 std::string to_json(const StressPlan& plan, const StressResult& result);
 
 }  // namespace harness

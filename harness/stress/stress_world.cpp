@@ -13,26 +13,26 @@ namespace harness {
 
 namespace {
 
-constexpr double lane = 8.0;          // [m] between lanes
-constexpr double sensor_range = 6.0;  // [m] more than the half diagonal of a lane's square: nothing is missed
+constexpr double lane = 8.0;             // [m] distance between lanes
+constexpr double sensor_range = 6.0;     // [m] above half the diagonal of a lane's square: all are seen
 constexpr double clear_of_path = 0.7;    // [m] from the middle of the robot
 constexpr double landmark_radius = 0.1;  // [m]
 constexpr double margin = 10.0;          // [m] of ground around everything
 
-// The ring: landmarks on two circles beside the robot's own.
+// The ring: landmarks on two circles, inside and outside the robot's circle.
 constexpr double ring_offset = 2.0;  // [m]
-constexpr double ring_width = 6.0;   // [m] of the band that `density` counts in
+constexpr double ring_width = 6.0;   // [m] width of the band to which `density` refers
 constexpr double ring_jitter = 0.5;  // [m]
-constexpr double sagitta = 0.05;     // [m] by which the polygon that is driven may leave its circle
+constexpr double sagitta = 0.05;     // [m] largest distance of the driven polygon from its circle
 
-/// Pairs of lanes in the rectangle that holds all landmarks, so that it is nearly a square.
+/// The number of pairs of lanes for which the rectangle of all landmarks is nearly a square.
 int pairs_of_lanes(const StressWorldSpec& spec) {
   const double side = std::sqrt(static_cast<double>(spec.landmarks) / spec.density);
   return std::max(1, static_cast<int>(std::lround(side / (2 * lane))));
 }
 
-/// Half the sides of the rectangle. Its width is a whole number of lanes: they are equally far apart in
-/// worlds of any size. [m]
+/// Half the sides of the rectangle. The width is a whole number of lanes, so the distance of the lanes is the
+/// same in all worlds. [m]
 Eigen::Vector2d half_sides(const StressWorldSpec& spec) {
   const double width = 2 * lane * pairs_of_lanes(spec);
   return {0.5 * static_cast<double>(spec.landmarks) / spec.density / width, 0.5 * width};
@@ -53,12 +53,13 @@ std::vector<Eigen::Vector2d> circle(double radius) {
   return points;
 }
 
-/// An even number of lanes, which begin and end half a lane from the edge: the last one ends on the side
-/// where the first begins.
+/// An even number of lanes, which start and end half a lane from the edge. The last lane ends on the side
+/// where the first one starts.
 std::vector<Eigen::Vector2d> lanes(const StressWorldSpec& spec) {
   const Eigen::Vector2d corner = (half_sides(spec).array() - 0.5 * lane).max(1.0);
   std::vector<Eigen::Vector2d> corners = worlds::serpentine(-corner, corner, lane);
-  // Four corners for each pair of lanes: this one begins a lane on the side of the way back.
+  // Each pair of lanes has four corners; the corner with this index is the start of a lane on the side of the
+  // way back.
   std::ranges::rotate(corners, corners.begin() + 4 * (pairs_of_lanes(spec) / 2));
   return corners;
 }
@@ -74,7 +75,8 @@ std::string generators(const StressWorldSpec& spec) {
            fmt::format(fmt::runtime(ring), spec.landmarks - inner, radius + ring_offset, ring_jitter, common);
   }
   const Eigen::Vector2d half = half_sides(spec);
-  // Evenly spread: otherwise chance makes the way through one world denser than that through another.
+  // The landmarks are spread evenly. By pure chance the path through one world would be denser than through
+  // another.
   const double distance = 0.5 / std::sqrt(spec.density);
   return fmt::format(
       "    - {{type: poisson_disk, distance_m: {}, count: {}, region: {{min_m: [{}, {}], max_m: [{}, {}]}}, "

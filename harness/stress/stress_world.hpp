@@ -1,4 +1,4 @@
-// Worlds of one density and any number of landmarks, each with a round that shows all of them.
+// Worlds of the same density with any number of landmarks. Each has a closed path that shows all landmarks.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 namespace harness {
 
 enum class StressPattern {
-  serpentine,  // anywhere in a rectangle, which is driven in lanes, round and round
-  ring,        // on both sides of a circle, which is driven round and round
-  forest,      // the same, but the measured part explores
+  serpentine,  // in a rectangle; the robot drives its lanes again and again
+  ring,        // on both sides of a circle; the robot drives round and round
+  forest,      // as serpentine, but the robot explores in the measured part
 };
 
 inline constexpr std::array<std::string_view, 3> stress_pattern_names = {"serpentine", "ring", "forest"};
@@ -26,11 +26,11 @@ struct StressWorldSpec {
   std::vector<std::string> estimators;
 };
 
-/// Corners of the closed path that brings every landmark into view once. Lanes begin in the middle of the
-/// rectangle, so that a second round begins in the midst of the map. [m]
+/// The corners of the closed path that brings every landmark into view. It starts in the middle of the
+/// rectangle, so a second round starts in the middle of the map. [m]
 std::vector<Eigen::Vector2d> stress_round(const StressWorldSpec& spec);
 
-/// The world file.
+/// The text of the world file.
 std::string stress_world(const StressWorldSpec& spec);
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// A simulator with a clock beside it.
+// A simulator that measures its own time.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace harness {
 
-/// Does what another one does, and notes how long each physics step took.
+/// Passes all calls on to another simulator, and measures the time of each physics step.
 class TimedSimulator final : public sim::Simulator {
  public:
-  /// `step_us` gets the time of each step; with a capacity for all of them, noting them allocates nothing.
+  /// The time of each step is appended to `step_us`. If it has enough capacity, this allocates nothing.
   TimedSimulator(std::unique_ptr<sim::Simulator> simulator, std::vector<double>& step_us);
 
   void step(const sim::Command& command) override;

@@ -12,7 +12,7 @@ namespace harness {
 
 namespace {
 
-/// What a round has brought so far.
+/// The progress of a round.
 class Round final : public RunListener {
  public:
   Round(const worlds::World& world, std::size_t estimators)
@@ -49,13 +49,13 @@ class Round final : public RunListener {
  private:
   Eigen::Vector2d start_;  // [m]
   std::vector<bool> seen_;
-  std::vector<double> update_us_;  // of each estimator, on the average
+  std::vector<double> update_us_;  // mean for each estimator
   double driven_ = 0.0;            // [m]
   std::int64_t landmarks_ = 0;
   seif::Pose2 T_world_robot_;
 };
 
-/// The same world for an engine that needs no more steps than there are odometry readings.
+/// The same world in the kinematic engine, which needs only one step for each odometry reading.
 worlds::World without_contacts(worlds::World world, double duration) {
   world.physics.engine = worlds::Engine::kinematic;
   world.physics.step_rate = world.encoders.rate;

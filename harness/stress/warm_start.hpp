@@ -1,5 +1,5 @@
-// Filters that have mapped a world before anything is measured: the robot drives the whole round with the kinematic
-// engine, with the same sensors, rates and noise as afterwards.
+// Lets filters map a world before the measurement. The robot drives one whole round in the engine without
+// contacts, with the same sensors, rates and noise as in the measurement.
 #pragma once
 
 #include <atomic>
@@ -16,30 +16,30 @@
 namespace harness {
 
 struct WarmStart {
-  std::unique_ptr<Believers> believers;  // those that are left
-  /// The estimators that took too long: the name, and how far they came.
+  std::unique_ptr<Believers> believers;  // those that were not given up
+  /// An estimator that took too long, and how far it came.
   struct GivenUp {
     std::string name;
     std::string why;
   };
   std::vector<GivenUp> given_up;
-  seif::Pose2 T_world_robot;   // where the robot is, truly
-  std::int64_t landmarks = 0;  // [-] that were seen
+  seif::Pose2 T_world_robot;   // true pose of the robot
+  std::int64_t landmarks = 0;  // [-] seen so far
   std::int64_t updates = 0;    // [-]
 };
 
 struct WarmStartLimits {
-  double length = 0.0;      // [m] of the round
-  double slowest_ms = 0.0;  // [ms] an update that takes longer, on the average of the last hundred or so
+  double length = 0.0;      // [m] length of the round
+  double slowest_ms = 0.0;  // [ms] mean of the last hundred updates or so that makes an estimator give up
 };
 
-/// Drives once round. Ends early if `stop` is set.
+/// Drives one round. Ends early if `stop` is set.
 WarmStart warm_start(const worlds::World& world, const seif::Registry& registry,
                      const WarmStartLimits& limits, const std::atomic<bool>& stop,
                      const std::function<void(double t)>& progress);
 
-/// Drives on along the round for `updates` updates, with the same engine, from the start pose of `world`.
-/// Returns the final pose.
+/// Drives on along the round for this number of updates, in the same engine, from the start pose in `world`.
+/// Returns the robot's pose at the end.
 seif::Pose2 drive_on(const worlds::World& world, Believers& believers, std::int64_t updates,
                      const std::atomic<bool>& stop);
 

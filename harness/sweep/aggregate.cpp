@@ -19,7 +19,7 @@ std::vector<std::string> names_of(Runs runs) {
   return names;
 }
 
-/// The row of an estimator in a run that it finished.
+/// The row of an estimator in a run; null if it did not finish the run.
 const EstimatorRow* finished(const std::vector<EstimatorRow>& run, const std::string& name) {
   const auto row = std::ranges::find(run, name, &EstimatorRow::estimator);
   return row == run.end() || !row->failure.empty() ? nullptr : &*row;
@@ -31,7 +31,7 @@ std::optional<double> number_of(const EstimatorRow* row, const std::string& scor
   return value == row->scores.end() ? std::nullopt : value->number;
 }
 
-/// All scores of an estimator, in the order in which they first stand.
+/// The names of all scores of an estimator, in the order in which they first occur.
 std::vector<std::string> scores_of(Runs runs, const std::string& estimator) {
   std::vector<std::string> names;
   for (const std::vector<EstimatorRow>& run : runs) {
@@ -44,7 +44,7 @@ std::vector<std::string> scores_of(Runs runs, const std::string& estimator) {
   return names;
 }
 
-/// Nothing for a score that is no number in any run.
+/// Empty if the score is not a number in any run.
 std::optional<ScoreStatistics> statistics_of(Runs runs, const std::string& estimator,
                                              const std::string& baseline, const std::string& score) {
   std::vector<double> values;

@@ -1,5 +1,5 @@
-// The runs of a sweep by setting and estimator: means, medians and paired differences. Definitions:
-// docs/sweeps.md.
+// Aggregates the runs of a sweep by setting and estimator: means, medians and paired differences.
+// Definitions: docs/sweeps.md.
 #pragma once
 
 #include <cstddef>
@@ -21,22 +21,22 @@ struct ScoreStatistics {
   std::size_t runs = 0;  // [-]
   Estimate mean;
   double median = 0.0;
-  std::size_t pairs = 0;               // [-] runs that have it of the baseline too
-  std::optional<Estimate> difference;  // mean over the pairs of its value less the baseline's
+  std::size_t pairs = 0;               // [-] runs in which the baseline has the score too
+  std::optional<Estimate> difference;  // mean over the pairs: its value minus the baseline's
 };
 
 struct EstimatorStatistics {
   std::string name;
-  std::size_t runs = 0;    // [-] finished
-  std::size_t failed = 0;  // [-] in which it, or the run as a whole, failed
+  std::size_t runs = 0;    // [-] runs that it finished
+  std::size_t failed = 0;  // [-] runs in which the estimator or the whole run failed
   std::vector<ScoreStatistics> scores;
 
-  const ScoreStatistics* find(const std::string& score) const;  // null: no run has it
+  const ScoreStatistics* find(const std::string& score) const;  // null: no run has this score
 };
 
-/// All runs of one setting; `failed` of them have no scores.
+/// The statistics of one setting, by estimator.
 struct SettingStatistics {
-  std::vector<std::string> values;  // of the axes
+  std::vector<std::string> values;  // values of the axes
   std::vector<EstimatorStatistics> estimators;
 };
 
@@ -51,7 +51,8 @@ struct Aggregate {
   std::vector<SettingStatistics> settings;
 };
 
-/// Aggregates the finished runs of one setting, in the order of the seeds. `failed`: the number of other runs.
+/// Aggregates the runs of one setting. `runs` are those that did not fail, in the order of the seeds;
+/// `failed` is the number of the others.
 std::vector<EstimatorStatistics> aggregate_runs(std::span<const std::vector<EstimatorRow>> runs,
                                                 std::size_t failed, const std::string& baseline);
 
@@ -60,7 +61,7 @@ std::string to_json(const Aggregate& aggregate);
 /// A row for each setting, estimator and score.
 std::string to_csv(const Aggregate& aggregate);
 
-/// The most important scores.
+/// The most important scores as a table.
 std::vector<TextRow> aggregate_table(const Aggregate& aggregate);
 
 /// The same as text, with the failures below.

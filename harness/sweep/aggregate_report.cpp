@@ -46,7 +46,7 @@ Json setting_json(const SweepPlan& plan, const SettingStatistics& setting) {
   return json;
 }
 
-/// Value, low and high as cells of a row, each behind a comma.
+/// The value and the bounds of its interval as three cells of a row, with a comma before each.
 std::string cells_of(const std::optional<Estimate>& value) {
   if (!value) return ",,,";
   if (!value->interval) return fmt::format(",{},,", value->value);

@@ -18,7 +18,7 @@ constexpr const char* done_suffix = ".json";
 constexpr const char* failed_suffix = ".failed";
 constexpr const char* unfinished = ".unfinished";
 
-/// Where this process writes what is to become `path`. No other that lives has the same name for it.
+/// The temporary path for a file that is to become `path`. No other living process uses the same one.
 std::filesystem::path part_of(const std::filesystem::path& path) {
   std::array<char, 256> host{};
   if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
@@ -28,7 +28,7 @@ std::filesystem::path part_of(const std::filesystem::path& path) {
   return part;
 }
 
-/// Names are on the disk when their folder is.
+/// A new name in a folder is on the disk only when the folder is.
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
@@ -38,7 +38,7 @@ void sync_folder(const std::filesystem::path& folder) {
     throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", folder.string()));
 }
 
-/// The index that the name of a file says.
+/// The index in the name of a file.
 std::optional<std::size_t> index_of(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   std::size_t index = 0;

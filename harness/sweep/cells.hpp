@@ -1,4 +1,4 @@
-// The cells of a sweep on disk. A file that is there is complete, whatever process was killed.
+// The cells of a sweep on disk. A file that exists is complete, whatever was killed and when.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 
 namespace harness {
 
-/// A file that gets its name in one step, when it is completely on the disk: no reader finds a part of it, not
-/// even after a crash of the machine. Several processes, on several machines, may write the same one at once.
-/// All functions throw std::system_error.
+/// A file that gets its name in one step, when its contents are on the disk. Nobody ever finds a part of it,
+/// even after a crash of the machine. Several processes, on several machines, may write the same file at
+/// once. All functions throw std::system_error.
 class DurableFile {
  public:
   explicit DurableFile(std::filesystem::path path);
@@ -27,15 +27,15 @@ class DurableFile {
   OutputFile file_;
 };
 
-/// The whole text as a durable file.
+/// Writes the whole text as a durable file.
 void write_durable_file(const std::filesystem::path& path, std::string_view text);
 
-/// Removes the remains of killed writers of durable files from a folder.
+/// Removes what killed writers of durable files have left in a folder.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 enum class CellState { open, failed, done };
 
-/// A folder with one file for each cell that was done, or that failed; several processes may write to it.
+/// A folder with one file for each cell that is done or failed. Several processes may write to it.
 class CellFolder {
  public:
   explicit CellFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -43,7 +43,7 @@ class CellFolder {
   /// The states of all `count` cells, by index.
   std::vector<CellState> states(std::size_t count) const;
 
-  /// The text of a finished cell, or why it failed.
+  /// The text of a cell that is done, or the reason why it failed.
   std::string result(std::size_t index) const;
   std::string failure(std::size_t index) const;
 

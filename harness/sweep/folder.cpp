@@ -15,15 +15,15 @@ namespace {
 
 constexpr const char* plan_file = "sweep.json";
 constexpr std::array<const char*, 2> world_files = {"world.yaml",
-                                                    "commands.csv"};  // the second may be missing
+                                                    "commands.csv"};  // the second one may be missing
 
-/// Without `.`, `..` and a slash at the end.
+/// The path without `.`, `..` and a final slash.
 std::filesystem::path tidy(const std::filesystem::path& folder) {
   const std::filesystem::path full = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
   return full.has_filename() ? full : full.parent_path();
 }
 
-/// Gives a folder its name, unless that is taken by one that is not empty. Whether it did.
+/// Renames a folder. False if `name` exists and is not empty.
 bool take_name(const std::filesystem::path& folder, const std::filesystem::path& name) {
   std::error_code error;
   std::filesystem::rename(folder, name, error);
@@ -32,7 +32,7 @@ bool take_name(const std::filesystem::path& folder, const std::filesystem::path&
   throw BadInput(fmt::format("{}: cannot be created: {}", name.string(), error.message()));
 }
 
-/// A folder beside another, that goes with all that is in it, unless it was given another name.
+/// A folder beside another one. It is deleted with its contents unless it was renamed.
 class FolderInMaking {
  public:
   explicit FolderInMaking(const std::filesystem::path& name)

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
       fmt::format("--vary {}: {}; what is meant is like estimators.seif.theta_x=4,6,8", text, reason));
 }
 
-/// The parts between those commas that stand in no bracket, brace or quotes.
+/// Splits at the commas that are not inside brackets, braces or quotes.
 std::vector<std::string> split_values(std::string_view text) {
   std::vector<std::string> parts(1);
   int depth = 0;

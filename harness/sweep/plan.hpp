@@ -1,4 +1,4 @@
-// The plan of a sweep: the product of settings and seeds.
+// What a sweep runs: the product of settings and seeds.
 #pragma once
 
 #include <cstddef>
@@ -9,62 +9,64 @@
 
 namespace harness {
 
-/// A value of the world file that is varied.
+/// A value of the world file that the sweep varies.
 struct SweepAxis {
-  std::string path;                 // as in `estimators.seif.theta_x`
-  std::vector<std::string> values;  // YAML, as written; distinct
+  std::string path;                 // for instance `estimators.seif.theta_x`
+  std::vector<std::string> values;  // YAML as written; all different
 
   bool operator==(const SweepAxis&) const = default;
 };
 
-/// Everything that decides the result. Two sweeps with equal plans and equal world files are the same.
+/// Everything that determines the results. Two sweeps with equal plans and equal world files are the same
+/// sweep.
 struct SweepPlan {
   std::string name;                  // of the world
   std::string version;               // of the program
-  std::string baseline;              // the estimator to which differences are taken
+  std::string baseline;              // the estimator that differences are relative to
   std::vector<std::uint64_t> seeds;  // ascending
   std::vector<SweepAxis> axes;
 
   bool operator==(const SweepPlan&) const = default;
 };
 
-/// One run of a sweep. The seeds change fastest, and then the last axis.
+/// One run of a sweep. In the order of cells the seed changes fastest, then the last axis.
 struct SweepCell {
   std::size_t setting = 0;  // [-] index
   std::uint64_t seed = 0;
 };
 
-/// The most cells that a sweep may have.
+/// The largest number of cells of a sweep.
 inline constexpr std::size_t most_cells = 10'000'000;
 
-/// Reads `path=v1,v2,..`. A comma inside brackets, braces or quotes does not separate. Throws BadInput.
+/// Reads `path=v1,v2,..`. Commas inside brackets, braces or quotes do not separate values. Throws BadInput.
 SweepAxis parse_axis(std::string_view text);
 
-/// Throws BadInput if an axis stands twice, or there are more than most_cells.
+/// Throws BadInput if an axis occurs twice, or if there are more than most_cells cells.
 void check_plan(const SweepPlan& plan);
 
 std::size_t setting_count(const SweepPlan& plan);
 std::size_t cell_count(const SweepPlan& plan);
 SweepCell cell_at(const SweepPlan& plan, std::size_t index);
 
-/// The values of the axes, in their order.
+/// The values of the axes, in the order of the axes.
 std::vector<std::string> values_of(const SweepPlan& plan, std::size_t setting);
 
-/// The path of each axis for people: its last key, or all of it where another axis has the same.
+/// A short name for each axis: the last key of its path, or the whole path if another axis has the same last
+/// key.
 std::vector<std::string> short_paths(const SweepPlan& plan);
 
-/// The overrides that make the world of a cell: `path.to.key=value`.
+/// The changes from the sweep's world to that of a cell: `path.to.key=value`.
 std::vector<std::string> overrides_of(const SweepPlan& plan, const SweepCell& cell);
 
-/// "seif.theta_x=6, seed 3", for people.
+/// A text such as "seif.theta_x=6, seed 3".
 std::string describe_cell(const SweepPlan& plan, std::size_t index);
 
 std::string to_json(const SweepPlan& plan);
 
-/// Throws BadInput, which names `file`.
+/// Reads a plan. Throws BadInput, with `file` in the message.
 SweepPlan plan_from_json(const std::string& text, const std::string& file);
 
-/// The first difference between two plans, as in "its seeds are 1..5, and not 1..8".
+/// The first difference between two different plans, as in "its seeds are 1..5, and not 1..8".
 std::string difference_between(const SweepPlan& its, const SweepPlan& ours);
 
 }  // namespace harness

@@ -16,11 +16,11 @@ namespace harness {
 
 namespace {
 
-/// Holds back the signal that a child has ended, so that it can be waited for.
+/// Blocks the signal that a child has ended, so that wait() can wait for it.
 class ChildSignalBlock {
  public:
   ChildSignalBlock() {
-    // Who started us may have ignored it; then the system would not keep how children ended.
+    // The parent may have ignored the signal; the system would then not keep the exit codes of children.
     std::signal(SIGCHLD, SIG_DFL);
     sigemptyset(&child_);
     sigaddset(&child_, SIGCHLD);
@@ -32,7 +32,7 @@ class ChildSignalBlock {
 
   void lift() const { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
-  /// Until a child ends, any other signal comes, or a while has passed.
+  /// Waits until a child ends, another signal comes, or 0.1 s have passed.
   void wait() const {
     constexpr timespec a_while{0, 100'000'000};  // [s, ns]
     sigtimedwait(&child_, nullptr, &a_while);
@@ -43,10 +43,10 @@ class ChildSignalBlock {
   sigset_t before_{};
 };
 
-/// Ends the process without a word of the parent's: its buffers and objects are not the child's to end.
+/// Ends with _exit: the parent's buffers and objects must not be flushed or destroyed by the child.
 [[noreturn]] void be_child(pid_t parent, std::size_t job, const std::function<int(std::size_t)>& run) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(1);  // it ended before that was in force
+  if (getppid() != parent) _exit(1);  // the parent ended before the line above took effect
   int code = 1;
   try {
     code = run(job);
@@ -77,7 +77,7 @@ class Processes {
     jobs_.emplace(process, job);
   }
 
-  /// Tells of those that have ended, and waits if there is none.
+  /// Reports the children that have ended. If there are none, waits.
   void gather(const std::function<void(std::size_t, const ProcessEnd&)>& ended) {
     bool is_any = false;
     int status = 0;

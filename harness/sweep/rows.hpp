@@ -1,4 +1,4 @@
-// The scores of each estimator in a cell of a sweep, as rows of named values.
+// The results of a cell of a sweep as rows of named values, one row for each estimator.
 #pragma once
 
 #include <optional>
@@ -7,22 +7,23 @@
 
 namespace harness {
 
-/// A value of a summary; nested ones have joined names, as in `blocks_touched_p50`.
+/// A value of a summary. The name of a nested value is joined, for instance `blocks_touched_p50`.
 struct NamedValue {
   std::string name;
-  std::string text;              // as in summary.json; empty: there is none
-  std::optional<double> number;  // nothing for text too
+  std::string text;              // as in summary.json; empty: no value
+  std::optional<double> number;  // empty: no value, or a text
 };
 
-/// An estimator in a run, or `odometry`.
+/// The results of an estimator, or of `odometry`, in a run.
 struct EstimatorRow {
   std::string estimator;
-  std::string failure;             // empty: none
-  std::vector<NamedValue> scores;  // the same whenever the run is repeated
-  std::vector<NamedValue> times;   // what was measured with a clock
+  std::string failure;             // empty: it did not fail
+  std::vector<NamedValue> scores;  // the same at each repetition of the run
+  std::vector<NamedValue> times;   // measured times
 };
 
-/// Reads the rows of a summary.json. Throws BadInput, which names `file`, if the text is not one.
+/// Reads the rows of a summary.json. Throws BadInput, with `file` in the message, if the text is not a
+/// summary.
 std::vector<EstimatorRow> rows_of(const std::string& summary, const std::string& file);
 
 }  // namespace harness

@@ -27,7 +27,7 @@ std::string shell_quoted(const std::string& word) {
 
 namespace {
 
-/// The process, without a shell in between, that prints to this descriptor; -1 and errno if there is none.
+/// Starts a program without a shell, with its standard output on this descriptor. -1 and errno if this fails.
 pid_t started(const std::vector<std::string>& arguments, int output) {
   std::vector<char*> words;
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));

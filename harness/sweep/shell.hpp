@@ -1,4 +1,4 @@
-// Calls programs and returns what they print.
+// Runs programs for their output.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace harness {
 
-/// A word quoted for a shell, whatever characters it has.
+/// The word in quotes for a shell, whatever characters it has.
 std::string shell_quoted(const std::string& word);
 
-/// Runs a program, found along PATH, and waits for its end; what it prints to stderr goes to ours. Returns
-/// what it prints to stdout. Throws std::runtime_error, which names it, if it is not there or fails.
+/// Runs a program, searched for along PATH, and waits for its end. Its stderr goes to ours. Returns its
+/// standard output. Throws std::runtime_error, with the program's name, if it does not exist or fails.
 std::string output_of(const std::vector<std::string>& arguments);
 
 }  // namespace harness

@@ -22,7 +22,7 @@ std::optional<std::size_t> to_number(std::string_view text) {
   return number;
 }
 
-/// Takes what stands before the next separator off the text.
+/// Removes the part before the next separator from the text and returns it.
 std::string_view take_until(char separator, std::string_view& text) {
   const std::size_t end = std::min(text.find(separator), text.size());
   const std::string_view part = text.substr(0, end);
@@ -42,7 +42,7 @@ void add_task(std::size_t tasks, std::string_view job, std::string_view task, st
 
 std::filesystem::path slurm_folder(const SweepFolder& sweep) { return sweep.path / "slurm"; }
 
-/// Shards with a cell that is not done. 1-based
+/// The shards with a cell that is not done, 1-based.
 std::set<std::size_t> lost_shards(const SweepFolder& sweep, std::size_t tasks) {
   const std::vector<CellState> states = sweep.states();
   std::set<std::size_t> lost;
@@ -52,7 +52,7 @@ std::set<std::size_t> lost_shards(const SweepFolder& sweep, std::size_t tasks) {
   return lost;
 }
 
-/// Writes a script of one line and submits it. The id of the job.
+/// Writes a script of one line and submits it. Returns the id of the job.
 std::string submit_script(const SweepFolder& sweep, const std::string& name, const std::string& log,
                           const std::string& arguments, std::vector<std::string> options) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();

@@ -18,10 +18,10 @@ struct SweepStatus {
 
 SweepStatus status_of(const SweepFolder& sweep);
 
-/// A line of counts, and one for each of the first that failed.
+/// One line of counts, and one line for each of the first failures.
 std::string to_text(const SweepFolder& sweep, const SweepStatus& status);
 
-/// A line for each of the first cells that failed, and how many more did.
+/// One line for each of the first failed cells, and one for the number of the others.
 std::string failed_lines(const SweepPlan& plan, const std::vector<FailedCell>& failed);
 
 }  // namespace harness

@@ -23,8 +23,8 @@ namespace harness {
 
 namespace {
 
-/// The world as it is written, with all that it extends and that holds for every run, and without the
-/// defaults: what is varied may bring others.
+/// The world as written, with the files that it extends and the overrides of all runs, but without defaults:
+/// a varied value may change which defaults apply.
 std::string world_as_written(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                              const std::string& name) {
   std::vector<worlds::Problem> none;
@@ -40,7 +40,7 @@ std::string world_as_written(const std::filesystem::path& file, const std::vecto
   return worlds::emit(document);
 }
 
-/// Loads the world of each setting. What is wrong with a varied value is said of its --vary.
+/// Loads the world of each setting. A problem with a varied value is reported for its --vary.
 std::vector<worlds::Problem> check_settings(const std::filesystem::path& world, const SweepPlan& plan,
                                             const worlds::EstimatorSchemas& schemas) {
   for (std::size_t setting = 0; setting < setting_count(plan); ++setting) {
@@ -73,7 +73,7 @@ std::string execute_cell(const SweepFolder& sweep, std::size_t index, const seif
   return done.result.error;
 }
 
-/// What the process of a cell does. The exit code.
+/// Runs a cell in its own process. Returns the exit code.
 int run_cell(const SweepFolder& sweep, std::size_t index, const seif::Registry& registry) {
   DetailedRun done;
   std::string failure;

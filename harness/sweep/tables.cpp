@@ -59,7 +59,7 @@ std::vector<EstimatorRow> read_cell(const SweepFolder& sweep, std::size_t index)
   return rows_of(sweep.cells().result(index), describe_cell(sweep.plan, index));
 }
 
-/// What a first pass over all cells finds.
+/// The result of a first pass over all cells.
 struct Gathered {
   Aggregate aggregate;
   ColumnNames scores;

@@ -11,14 +11,14 @@ std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
 
 std::mutex guards_mutex;
-int guards = 0;  // [-] that live
+int guards = 0;  // [-] living guards
 
 extern "C" void note_interrupt(int) { interrupted = true; }
 
 void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;  // the second signal finds the default
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;  // a second signal gets the default action
   sigaction(signal, &action, nullptr);
 }
 

@@ -1,12 +1,12 @@
-// Ctrl-C and SIGTERM: a run ends properly.
+// Handles SIGINT (Ctrl-C) and SIGTERM, so that a run can end properly.
 #pragma once
 
 #include <atomic>
 
 namespace harness {
 
-/// While any lives, SIGINT and SIGTERM set a flag. A second signal ends the program at once. Several may live
-/// at once, in any thread, and share the flag.
+/// While a guard lives, SIGINT and SIGTERM set a flag. A second signal ends the program at once. Several
+/// guards may live at once, in any thread, and share the flag.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -14,7 +14,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether a signal came since there is a guard.
+  /// True if a signal has come since the oldest living guard was made.
   static const std::atomic<bool>& flag();
 };
 

@@ -1,4 +1,4 @@
-// The progress of one run or many, on a terminal.
+// Progress of one run or of many, on a terminal.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace harness {
 
-/// A line of stderr that is rewritten from time to time, if stderr is a terminal.
+/// A line on stderr that is rewritten from time to time, if stderr is a terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -15,10 +15,10 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Whether it is time for an update of the line.
+  /// True if it is time to show something new.
   bool is_due();
   void show(const std::string& line);
-  double elapsed() const;  // [s] since it was made
+  double elapsed() const;  // [s] since construction
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -31,7 +31,7 @@ class StatusLine {
 /// The progress of one run.
 class Progress {
  public:
-  /// `end_t` [s]: where the run ends, if that is known.
+  /// `end_t` [s]: the end of the run; empty: not known.
   Progress(bool quiet, double start_t, std::optional<double> end_t);
 
   void show(double t);
@@ -42,10 +42,10 @@ class Progress {
   std::optional<double> end_t_;
 };
 
-/// The progress of many tasks that take about the same time each.
+/// The progress of many tasks of about equal duration.
 class CountProgress {
  public:
-  /// `what`: their name in the plural.
+  /// `what`: the name of the tasks in the plural.
   CountProgress(bool quiet, std::size_t total, std::string what);
 
   void show(std::size_t done);
