@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const Believers& believers) {
 /// Prints a message once something was left out. True if it did.
 bool tell_of(const Screening& screening) {
   if (!screening.first_t()) return false;
-  fmt::print(stderr, "at {} s: a measurement that is none was left out ({}); more of the kind are counted\n",
+  fmt::print(stderr, "at {} s: an invalid measurement was ignored ({}); more of the kind are counted\n",
              *screening.first_t(), screening.named().front().first);
   return true;
 }

@@ -81,7 +81,7 @@ std::string divergence_lines(const Summary& summary) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {
     if (score.diverged_t)
-      text += fmt::format("{} diverged at {} s: it does not see what it expects (NIS up to {:.3g})\n",
+      text += fmt::format("{} diverged at {} s: its innovations are too large (NIS up to {:.3g})\n",
                           score.name, *score.diverged_t, score.worst_nis.value_or(0.0));
     if (score.diverged_nees_t)
       text += fmt::format("{} diverged by {} s: the NEES of its pose is above {:.1f}\n", score.name,
