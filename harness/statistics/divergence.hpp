@@ -9,6 +9,11 @@
 namespace harness {
 
 /// Follows the innovations of one estimator. Constant time and memory.
+///
+/// The sum of v' S^-1 v over scans of a consistent filter has a chi-square distribution; its degrees of
+/// freedom are the number of measured values. The test looks at the last `window` scans that observed known
+/// landmarks. The test fires if their sum exceeds highest_nis(), or if the filter's gate rejected more
+/// observations of known landmarks than it accepted.
 class InnovationTest {
  public:
   static constexpr std::size_t window = 10;  // [scans]
