@@ -13,8 +13,8 @@ using Matrix23 = Eigen::Matrix<double, 2, 3>;
 struct PredictedPose {
   Pose2 pose;                                                // T_world_robot after the increment
   Eigen::Matrix3d J_wrt_pose = Eigen::Matrix3d::Identity();  // F = I + A (3 x 3)
-  Eigen::Matrix3d noise_factor =
-      Eigen::Matrix3d::Zero();  // L with L L' = R, in the world frame (3 x 3), any rank
+  /// L with L L' = R, in the world frame (3 x 3), any rank
+  Eigen::Matrix3d noise_factor = Eigen::Matrix3d::Zero();
 };
 
 /// `odometry.covariance` must be positive semidefinite. Negative eigenvalues that come from rounding count as

@@ -41,8 +41,8 @@ struct Generator {
   double offset = 1.5;                               // [m] corridor: from the line to the centres
   double spacing = 2.0;                              // [m] corridor: along the line
   double jitter = 0.0;  // [m] grid, ring, corridor: largest random offset, in x and in y
-  bool skip_blocked =
-      false;  // grid, ring, corridor: landmarks without a free place are left out; false: failure
+  /// grid, ring, corridor: landmarks without a free place are left out; false: failure
+  bool skip_blocked = false;
 };
 
 /// How many landmarks were placed, and how many were wanted. Landmarks that `skip_blocked` has left out are not
