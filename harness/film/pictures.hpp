@@ -11,7 +11,7 @@ namespace harness {
 /// Each frame in a file of its own: for a.png a_00000.png, a_00001.png, ...
 std::unique_ptr<FrameSink> make_picture_sequence(const std::filesystem::path& file);
 
-/// One frame in this very file.
+/// One frame, in exactly this file.
 std::unique_ptr<FrameSink> make_still(const std::filesystem::path& file);
 
 }  // namespace harness

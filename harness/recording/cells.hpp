@@ -16,7 +16,7 @@ void write_covariance(CsvWriter& file, const Matrix& covariance) {
   }
 }
 
-/// An empty cell where it is not.
+/// Writes the number, or an empty cell if it is not known.
 inline void write_if_known(CsvWriter& file, const std::optional<double>& number) {
   number ? file.value(*number) : file.leave_empty();
 }
