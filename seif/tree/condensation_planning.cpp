@@ -24,10 +24,10 @@ void CondensationTree::note_travel(const InformationState& state) {
 /// In how many slices a plan is made ready: a third of the updates in which the robot comes to see what has
 /// called for it. So most updates work on none, in maps of any size.
 int CondensationTree::slices() const {
-  constexpr double least = 4.0;
-  constexpr double most = 64.0;
+  constexpr double fewest_slices = 4.0;
+  constexpr double most_slices = 64.0;
   const double updates = options_.zone_before * view_ / std::max(travel_, 1e-9);
-  return static_cast<int>(std::clamp(updates / 3.0, least, most));
+  return static_cast<int>(std::clamp(updates / 3.0, fewest_slices, most_slices));
 }
 
 /// False if the zone may stay as it is. Otherwise plan_.hot_leaves are those of the landmarks that are active
