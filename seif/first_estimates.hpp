@@ -60,17 +60,33 @@ class FirstEstimates {
   /// mean of each active landmark. Returns by how much the pose in the frame of the first estimates moved. [m]
   template <class ForEachActive>
   Eigen::Vector2d move_pose(const Pose2& before, const Pose2& after, const ForEachActive& for_each_active) {
-    active_.clear();
-    for_each_active([this](int slot, const Eigen::Vector2d& mean) {
-      active_.push_back({mean, point(slot)});
-    });
+    gather(for_each_active);
     return move_pose(before, after);
+  }
+
+  /// The same when a scan has moved the pose. Nothing moves, and the result is zero, if a landmark does not fit:
+  /// then the scan has moved parts of the map, as where a loop closes.
+  template <class ForEachActive>
+  Eigen::Vector2d follow_pose(const Pose2& before, const Pose2& after, const ForEachActive& for_each_active) {
+    gather(for_each_active);
+    return follow_pose(before, after);
   }
 
   std::size_t memory_bytes() const { return points_.memory_bytes(); }
 
  private:
+  template <class ForEachActive>
+  void gather(const ForEachActive& for_each_active) {
+    active_.clear();
+    for_each_active([this](int slot, const Eigen::Vector2d& mean) {
+      active_.push_back({mean, point(slot)});
+    });
+  }
   Eigen::Vector2d move_pose(const Pose2& before, const Pose2& after);
+  Eigen::Vector2d follow_pose(const Pose2& before, const Pose2& after);
+  /// How many active landmarks fit to a pose in the frame of the first estimates, with the pose's mean at
+  /// `mean`.
+  std::size_t fitting(const Pose2& framed, const Pose2& mean) const;
 
   using Point = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 

@@ -5,21 +5,31 @@ namespace {
 
 Eigen::Vector2d p_world_robot(const InformationState& state) { return {state.pose().x, state.pose().y}; }
 
-/// Moves the first estimate of an active landmark to `to` by a change of variables: turning the pose by dtheta
-/// now also moves the landmark by J (from - to) dtheta, with J a quarter turn. Before, Omega held no
-/// information about turning everything about the old first estimate; afterwards it holds none about turning
-/// everything about `to`.
-void move_first_estimate(InformationState& state, int position, const Eigen::Vector2d& to) {
-  const int slot = state.active(position);
-  const Eigen::Vector2d by = to - state.first_estimates().point(slot);
-  state.first_estimates().set_point(slot, to);
+/// A change of variables: turning the pose by dtheta now also moves what stands in `row` by J (-by) dtheta, with
+/// J a quarter turn. Omega held no information about turning everything about a first estimate; afterwards it
+/// holds none about turning everything about that first estimate moved by `by`.
+void change_turn(InformationState& state, int row, const Eigen::Vector2d& by) {
   auto Omega = state.Omega();
   auto r = state.r();
-  const int row = InformationState::row_of(position);
   Omega.col(2) += by.y() * Omega.col(row) - by.x() * Omega.col(row + 1);
   Omega.row(2) += by.y() * Omega.row(row) - by.x() * Omega.row(row + 1);
   r(2) += by.y() * r(row) - by.x() * r(row + 1);
   state.touch(state.active_count() + 1);
+}
+
+void move_first_estimate(InformationState& state, int position, const Eigen::Vector2d& to) {
+  FirstEstimates& firsts = state.first_estimates();
+  const int slot = state.active(position);
+  change_turn(state, InformationState::row_of(position), to - firsts.point(slot));
+  firsts.set_point(slot, to);
+}
+
+/// Calls visit(slot, mean) for each active landmark.
+auto active_means(const InformationState& state) {
+  return [&state](const auto& visit) {
+    for (int position = 0; position < state.active_count(); ++position)
+      visit(state.active(position), state.mean(state.active(position)));
+  };
 }
 
 }  // namespace
@@ -58,10 +68,12 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
   state.set_pose(prediction);
   if (!state.first_estimates().in_use()) return {prediction.x - before.x, prediction.y - before.y};
 
-  return state.first_estimates().move_pose(before, prediction, [&](const auto& visit) {
-    for (int position = 0; position < state.active_count(); ++position)
-      visit(state.active(position), state.mean(state.active(position)));
-  });
+  return state.first_estimates().move_pose(before, prediction, active_means(state));
+}
+
+void follow_pose(InformationState& state, const Pose2& before) {
+  if (!state.first_estimates().in_use()) return;
+  change_turn(state, 0, state.first_estimates().follow_pose(before, state.pose(), active_means(state)));
 }
 
 /// A first estimate settles with its landmark's first link to a passive landmark: a later move of it would link

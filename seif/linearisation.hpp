@@ -25,6 +25,11 @@ std::optional<Pose2> other_linearisation_pose(const InformationState& state);
 /// pose moved from which levers are computed. [m]
 Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& prediction);
 
+/// To be called when the scan has moved the pose from `before`: from now on levers are computed from where the
+/// pose is now. Omega and r change with it, so that Omega still holds no information about a turn of everything.
+/// Does nothing where landmarks of another frame are in view.
+void follow_pose(InformationState& state, const Pose2& before);
+
 /// Replaces the first estimates of active landmarks that are not settled yet by their means. Omega and r change
 /// with them, so that Omega still holds no information about a turn of everything, now about the new first
 /// estimates.

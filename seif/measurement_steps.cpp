@@ -20,7 +20,9 @@ bool is_closing(const InformationState& state, int slot, const Observation& obse
   if (closing_gate <= 0.0) return false;
   const Eigen::Vector2d seen_at =
       invert_observation(state.pose(), T_robot_sensor, observation).p_world_landmark;
-  return (seen_at - state.mean(slot)).norm() > closing_gate * observation.range;
+  const double apart = (seen_at - state.mean(slot)).norm();
+  constexpr double most_sigmas = 3.0;  // [sigma]
+  return apart > closing_gate * observation.range && apart > most_sigmas * sd_of_sighting(observation);
 }
 
 void linearise_known(const InformationState& state, const Scan& scan, const Pose2& T_robot_sensor,
@@ -35,21 +37,24 @@ void linearise_known(const InformationState& state, const Scan& scan, const Pose
   }
 }
 
-bool relinearise(InformationState& state, const Pose2& T_robot_sensor, double relinearise_above,
-                 std::vector<ObservationFactor>& factors) {
-  const double most_squared = relinearise_above * relinearise_above;
-  bool any = false;
-  for (ObservationFactor& factor : factors) {
-    const ObservationFactor now = linearise(state, factor.slot, factor.observation, T_robot_sensor);
-    Eigen::Vector2d nonlinearity = now.v - residual(state, factor);
-    nonlinearity(1) = wrap_angle(nonlinearity(1));
-    if (squared_norm(nonlinearity, factor) <= most_squared) continue;
-    subtract(state, factor);
-    add(state, now);
-    factor = now;
-    any = true;
+bool is_stale(const InformationState& state, const ObservationFactor& factor, const ObservationFactor& now,
+              double relinearise_above) {
+  Eigen::Vector2d nonlinearity = now.v - residual(state, factor);
+  nonlinearity(1) = wrap_angle(nonlinearity(1));
+  if (squared_norm(nonlinearity, factor) > relinearise_above * relinearise_above) return true;
+  constexpr double sharper = 1.2;  // [-]
+  return ((sharper * covariance(now)).diagonal().array() < covariance(factor).diagonal().array()).any();
+}
+
+void replace_all(InformationState& state, const Pose2& T_robot_sensor,
+                 std::span<const ObservationFactor> replacements, std::vector<ObservationFactor>& factors) {
+  for (const ObservationFactor& factor : factors) subtract(state, factor);
+  follow_pose(state, factors.front().x0);
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    factors[i] = linearise(state, factors[i].slot, factors[i].observation, T_robot_sensor);
+    set_noise(factors[i], replacements[i].noise);
+    add(state, factors[i]);
   }
-  return any;
 }
 
 void add_equal(InformationState& state, const std::vector<std::pair<int, int>>& equal_slots) {

@@ -1,6 +1,7 @@
 // Steps of Seif's measurement update that need nothing but the state.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,8 +14,8 @@ namespace seif {
 double sd_of_sighting(const Observation& observation);
 
 /// Whether the landmark is seen so far from its mean that the direction to the mean is useless: farther than
-/// `closing_gate` times the measured range. This happens when a long loop closes. Always false if
-/// `closing_gate` is 0.
+/// `closing_gate` times the measured range, and farther than the noise of the sighting explains. This happens
+/// when a long loop closes. Always false if `closing_gate` is 0.
 bool is_closing(const InformationState& state, int slot, const Observation& observation,
                 const Pose2& T_robot_sensor, double closing_gate);
 
@@ -23,10 +24,15 @@ bool is_closing(const InformationState& state, int slot, const Observation& obse
 void linearise_known(const InformationState& state, const Scan& scan, const Pose2& T_robot_sensor,
                      double closing_gate, std::vector<ObservationFactor>& factors);
 
-/// Takes out the factors whose nonlinearity at the present mean is above `relinearise_above` [sigma], and adds
-/// them again, linearised at the present mean. True if there was such a factor.
-bool relinearise(InformationState& state, const Pose2& T_robot_sensor, double relinearise_above,
-                 std::vector<ObservationFactor>& factors);
+/// Whether `now`, the same observation linearised at the present mean, should replace `factor`: the nonlinearity
+/// is above `relinearise_above` [sigma], or the noise of the linearisation has become much smaller.
+bool is_stale(const InformationState& state, const ObservationFactor& factor, const ObservationFactor& now,
+              double relinearise_above);
+
+/// Takes out all factors, and adds them again: linearised at the present mean, and with the noise of their
+/// replacements.
+void replace_all(InformationState& state, const Pose2& T_robot_sensor,
+                 std::span<const ObservationFactor> replacements, std::vector<ObservationFactor>& factors);
 
 /// Adds the information that the two landmarks of each pair are the same one: m_a - m_b = 0 with standard
 /// deviation equal_sd. Skips pairs that are not both active. If their first estimates lie apart, the lever

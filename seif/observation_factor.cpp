@@ -75,6 +75,17 @@ ObservationFactor linearise_at_measurement(const InformationState& state, int sl
   return factor;
 }
 
+Eigen::Matrix2d covariance(const ObservationFactor& factor) {
+  Eigen::Matrix2d Q = factor.observation.covariance;
+  Q.diagonal() += factor.noise;
+  return Q;
+}
+
+void set_noise(ObservationFactor& factor, const Eigen::Vector2d& noise) {
+  factor.noise = noise;
+  factor.Q_inverse = covariance(factor).inverse();
+}
+
 Eigen::Vector2d residual(const InformationState& state, const ObservationFactor& factor) {
   const Pose2 x = state.pose();
   const Eigen::Vector3d dx(x.x - factor.x0.x, x.y - factor.x0.y, wrap_angle(x.theta - factor.x0.theta));

@@ -17,8 +17,9 @@ struct ObservationFactor {
   Eigen::Matrix2d J_m = Eigen::Matrix2d::Zero();        // (2 x 2)
   Eigen::Vector2d v = Eigen::Vector2d::Zero();          // innovation at x0, m0 [m, rad]
   Eigen::Matrix2d Q_inverse = Eigen::Matrix2d::Zero();  // (2 x 2)
-  Pose2 x0;                                             // T_world_robot
-  Eigen::Vector2d m0 = Eigen::Vector2d::Zero();         // p_world_landmark [m]
+  Eigen::Vector2d noise = Eigen::Vector2d::Zero();  // variances that Q has beyond the sensor's [m^2, rad^2]
+  Pose2 x0;                                         // T_world_robot
+  Eigen::Vector2d m0 = Eigen::Vector2d::Zero();     // p_world_landmark [m]
 };
 
 /// Linearised at the mean of the state. With first estimates, the column of J_x for the heading is taken from
@@ -35,6 +36,11 @@ ObservationFactor linearise(const InformationState& state, int slot, const Eigen
 /// long loop.
 ObservationFactor linearise_at_measurement(const InformationState& state, int slot,
                                            const Observation& observation, const Pose2& T_robot_sensor);
+
+/// Q: the covariance of the observation, and `noise` on its diagonal. (2 x 2)
+Eigen::Matrix2d covariance(const ObservationFactor& factor);
+/// Sets `noise` and Q_inverse.
+void set_noise(ObservationFactor& factor, const Eigen::Vector2d& noise);
 
 /// The innovation that the factor gives at the present mean: v - J (mu - mu_0). [m, rad]
 Eigen::Vector2d residual(const InformationState& state, const ObservationFactor& factor);

@@ -7,6 +7,7 @@
 #include "seif/exact_mean.hpp"
 #include "seif/groups/group_mean.hpp"
 #include "seif/linearisation.hpp"
+#include "seif/linearisation_noise.hpp"
 #include "seif/measurement_steps.hpp"
 #include "seif/sparsification.hpp"
 #include "seif/tree/tree_belief.hpp"
@@ -16,6 +17,8 @@ namespace seif {
 namespace {
 
 constexpr int most_relinearisations = 4;  // [-] in one update
+/// [-] Second-order terms below this share of the sensor's variances are ignored.
+constexpr double least_curvature = 0.05;
 
 }  // namespace
 
@@ -58,6 +61,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
 
   join_equal(scan.t);
   linearise_known(state_, scan, T_robot_sensor_, options_.closing_gate, factors_);  // eqs. (15), (23)
+  allow_for_curvature(scan);
   if (options_.gate > 0.0 || options_.robust_above > 0.0) check_innovations(scan.t);
   for (const ObservationFactor& factor : factors_) add(state_, factor);  // eqs. (21), (22)
   solve_window(scan.t);                                                  // eq. (37), for the window
@@ -106,6 +110,34 @@ void Seif::join_equal(double t) {
   solve_window(t);
 }
 
+/// Computes the noise of the linearisation if a rough bound says that it may matter. Hence the usual update
+/// does no more work than without.
+void Seif::allow_for_curvature(const Scan& scan) {
+  is_curved_ = false;
+  if (options_.linearisation_noise <= 0.0 || keeper_->window_factor() == nullptr || factors_.empty()) return;
+  const double times = options_.linearisation_noise * options_.linearisation_noise / least_curvature;
+  const double V = heading_variance(scan.t);
+  is_curved_ = std::ranges::any_of(factors_, [&](const ObservationFactor& factor) {
+    const Eigen::Vector2d rough = times * rough_linearisation_noise(factor, V);
+    return (rough.array() > factor.observation.covariance.diagonal().array()).any();
+  });
+  if (!is_curved_) return;
+  solve_window(scan.t);  // for its factor; r is already zero, so no mean moves
+  for (ObservationFactor& factor : factors_) set_noise(factor, noise_of(factor));
+}
+
+/// By the latest solution for the window. [rad^2]
+double Seif::heading_variance(double t) {
+  if (keeper_->window_factor()->size == 0) solve_window(t);
+  return seif::heading_variance(*keeper_->window_factor(), columns_);
+}
+
+/// Given the latest solution for the window. [m^2, rad^2]
+Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
+  const double times = options_.linearisation_noise * options_.linearisation_noise;
+  return times * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
+}
+
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each
 /// is tested alone, before any observation of the scan is added.
 void Seif::check_innovations(double t) {
@@ -121,7 +153,7 @@ void Seif::check_innovations(double t) {
     }
     const double excess = huber_excess(squared, options_.robust_above);
     factor.observation.covariance *= excess;
-    factor.Q_inverse /= excess;
+    set_noise(factor, factor.noise);
     if (excess > 1.0) ++weakened_;
     factors_[kept++] = factor;
   }
@@ -137,7 +169,7 @@ double Seif::squared_mahalanobis(const ObservationFactor& factor, const WindowFa
   Y.topRows<3>() = factor.J_x.transpose();
   Y.middleRows<2>(InformationState::row_of(state_.position(factor.slot))) = factor.J_m.transpose();
   window.L().triangularView<Eigen::Lower>().solveInPlace(Y);
-  const Eigen::Matrix2d S = Y.transpose() * Y + factor.observation.covariance;
+  const Eigen::Matrix2d S = Y.transpose() * Y + covariance(factor);
   const Eigen::Vector2d v = residual(state_, factor);
   return v.dot(S.inverse() * v);
 }
@@ -157,9 +189,22 @@ void Seif::note_innovation() {
 
 void Seif::relinearise(double t) {
   for (int round = 0; round < most_relinearisations; ++round) {
-    if (!seif::relinearise(state_, T_robot_sensor_, options_.relinearise_above, factors_)) return;
+    if (!any_stale()) return;
+    replace_all(state_, T_robot_sensor_, again_, factors_);
     solve_window(t);
   }
+}
+
+/// Linearises the scan at the present mean, to again_, and compares.
+bool Seif::any_stale() {
+  again_.clear();
+  bool any = false;
+  for (const ObservationFactor& factor : factors_) {
+    again_.push_back(linearise(state_, factor.slot, factor.observation, T_robot_sensor_));
+    if (is_curved_) set_noise(again_.back(), noise_of(again_.back()));
+    any = any || is_stale(state_, factor, again_.back(), options_.relinearise_above);
+  }
+  return any;
 }
 
 /// Adds the landmarks that were never seen before, placed from the pose that the other observations have
@@ -168,6 +213,8 @@ void Seif::relinearise(double t) {
 bool Seif::add_new(const Scan& scan) {
   const int known = state_.landmark_count();
   bool seen_once = true;
+  const bool adds_noise = options_.linearisation_noise > 0.0 && keeper_->window_factor() != nullptr;
+  std::optional<double> V;
   for (const Observation& observation : scan.observations) {
     std::optional<int> slot = state_.find(observation.landmark);
     if (slot && *slot < known) continue;
@@ -180,7 +227,13 @@ bool Seif::add_new(const Scan& scan) {
       keeper_->join(state_, *slot);
       state_.mark_seen(*slot);
     }
-    add(state_, linearise(state_, *slot, observation, T_robot_sensor_));
+    ObservationFactor factor = linearise(state_, *slot, observation, T_robot_sensor_);
+    if (adds_noise) {
+      if (!V) V = heading_variance(scan.t);
+      set_noise(factor, options_.linearisation_noise * options_.linearisation_noise *
+                            linearisation_noise(observation, *V));
+    }
+    add(state_, factor);
   }
   return seen_once;
 }

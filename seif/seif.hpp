@@ -28,6 +28,10 @@ struct SeifOptions {
   int first_estimates = 5;
   /// [sigma] An observation with a larger nonlinearity is linearised again at the updated mean.
   double relinearise_above = 0.1;
+  /// [-] Second-order terms of an observation count as noise, with this number of times their standard
+  /// deviation (linearisation_noise). More than 1, because they are the same at each sighting until the mean
+  /// moves. 0: not at all. Has an effect with MeanRecovery::tree only, which knows the covariance of the window.
+  double linearisation_noise = 2.0;
   /// [-] An observation is linearised at the measurement if the landmark is seen farther from its mean than
   /// this number of times the measured range. Then the direction to the mean is useless, as when a long ring
   /// closes. 0: never.
@@ -43,12 +47,13 @@ struct SeifOptions {
   CondensationOptions tree = {};
 };
 
-/// It differs from the report's filter in five points:
+/// It differs from the report's filter in six points:
 /// - It keeps r = xi - Omega mu, so that a step of the mean is exact (information_state).
 /// - It solves for robot and active landmarks after the observations, and places new landmarks from the
 ///   corrected pose.
 /// - It takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes.
+/// - It counts what an observation lacks in linearity as noise.
 /// - It sparsifies by the gauge-free rule, in bursts, and never drops a landmark in view (sparsification).
 /// - It recovers the mean with a condensation tree (tree/), or with rigid groups of landmarks (groups/).
 class Seif final : public InformationFilter {
@@ -72,10 +77,14 @@ class Seif final : public InformationFilter {
   void make_keeper(const Pose2& start);
   void activate_known(const Scan& scan);
   void join_equal(double t);
+  void allow_for_curvature(const Scan& scan);
+  double heading_variance(double t);
+  Eigen::Vector2d noise_of(const ObservationFactor& factor);
   void check_innovations(double t);
   double squared_mahalanobis(const ObservationFactor& factor, const WindowFactor& window);
   void note_innovation();
   void relinearise(double t);
+  bool any_stale();
   [[nodiscard]] bool add_new(const Scan& scan);
   void solve_window(double t);
   void sparsify(double t);
@@ -88,7 +97,9 @@ class Seif final : public InformationFilter {
   std::optional<double> innovation_;                      // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;                            // [-]
   Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow
-  std::vector<ObservationFactor> factors_;                // of the latest scan
+  Eigen::Matrix<double, Eigen::Dynamic, 3> columns_;      // scratch (w x 3), with room to grow
+  bool is_curved_ = false;                                // second-order terms matter in the latest scan
+  std::vector<ObservationFactor> factors_, again_;        // of the latest scan
   std::vector<int> seen_, to_drop_;                       // slots; kept so that no update allocates
   std::vector<std::pair<int, int>> equal_slots_;
 };

@@ -200,6 +200,12 @@ void add_linearisation(OptionTable<SeifOptions>& table) {
           "relinearise_above", [](SeifOptions& o) -> double& { return o.relinearise_above; }, {.min = 0.0},
           "Linearises an observation again after the update if its nonlinearity is above this [sigma].")
       .number(
+          "linearisation_noise", [](SeifOptions& o) -> double& { return o.linearisation_noise; },
+          {.min = 0.0, .max = 100.0},
+          "With the tree: what an observation lacks in linearity counts as noise, with this number of times "
+          "its "
+          "standard deviation; 0: not at all [-].")
+      .number(
           "closing_gate", [](SeifOptions& o) -> double& { return o.closing_gate; }, {.min = 0.0},
           "Linearises an observation at the measurement if the landmark is seen farther from its mean than "
           "this many times the measured range; 0: never [-].");

@@ -1,0 +1,38 @@
+// How far an observation may be from its linear equation, as a noise that is added to the sensor's.
+//
+// A filter that takes a curve for a line is overconfident as soon as the bend is larger than the noise of the
+// sensor: where ranges are good and bearings bad, or where the pose or a landmark is hardly known yet. So the
+// second-order terms of an observation count as noise. They shrink with the belief's own covariance. This is the
+// idea of the second-order filter and of posterior linearisation (Garcia-Fernandez, Svensson, Morelande, Sarkka:
+// "Posterior linearization filter", IEEE Transactions on Signal Processing, 2015), in constant time.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "seif/information_state.hpp"
+#include "seif/observation_factor.hpp"
+#include "seif/window_factor.hpp"
+
+namespace seif {
+
+/// Mean squares of the second-order terms of range and bearing: (2 x 1) [m^2, rad^2].
+/// With C the covariance of where the robot sees the landmark, along and across its direction, V the variance
+/// of the heading, and o the error of J_x's heading column (first estimates):
+///   range    3/4 C_aa^2 / d^2 + V (C_aa + o_1^2)
+///   bearing  (C_ll C_aa + 2 C_la^2) / d^4 + V (C_ll / d^2 + o_2^2)
+/// for a distance d. The belief is (L L')^-1 of `window`, which must be up to date; `scratch` (w x 3).
+Eigen::Vector2d linearisation_noise(const InformationState& state, const ObservationFactor& factor,
+                                    const WindowFactor& window,
+                                    Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
+
+/// The same for a landmark of which nothing but the observation is known. `heading_variance` [rad^2]
+Eigen::Vector2d linearisation_noise(const Observation& observation, double heading_variance);
+
+/// A guess of the first function in a few operations: instead of C it takes the larger of the sensor's noise
+/// and the innovation.
+Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double heading_variance);
+
+/// The variance of the heading in (L L')^-1. [rad^2]
+double heading_variance(const WindowFactor& window, Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
+
+}  // namespace seif
