@@ -12,10 +12,10 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
+#include "worlds/input_file.hpp"
 #include "worlds/limits.hpp"
 
 namespace worlds {
@@ -325,16 +325,11 @@ std::optional<Node> parse_document(std::string_view text, const std::string& sou
 }
 
 std::optional<Node> read_document(const std::filesystem::path& file, std::vector<Problem>& problems) {
-  const auto refuse = [&](const char* why) {
+  const auto refuse = [&](const std::string& why) {
     problems.push_back({{std::make_shared<const std::string>(file.string()), 0, 0}, why, ""});
     return std::nullopt;
   };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) return refuse("there is no such file");
-  if (error) return refuse(("the file cannot be read: " + error.message()).c_str());
-  if (std::filesystem::is_directory(status)) return refuse("this is a directory, not a file");
-  if (!std::filesystem::is_regular_file(status)) return refuse("this is no regular file");
+  if (const std::string why = why_no_input(file); !why.empty()) return refuse(why);
   const std::optional<std::string> text = read_text(file);
   if (!text) return refuse("the file cannot be read");
   return parse_document(*text, file.string(), problems);

@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/files/input_file.hpp"
+
 namespace harness {
 
 namespace {
@@ -19,10 +21,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 }  // namespace
 
 RowReader::RowReader(std::filesystem::path path, char separator)
-    : path_(std::move(path)), separator_(separator), file_(path_) {
-  std::error_code error;
-  if (!file_ || !std::filesystem::is_regular_file(path_, error))
-    throw BadInput(fmt::format("{}: cannot be read", path_.string()));
+    : path_(std::move(path)), separator_(separator), file_(open_input(path_)) {
   line_.reserve(longest_line);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
 
@@ -121,15 +122,16 @@ Summary parse_summary(std::istream& text) {
 }  // namespace
 
 Summary read_summary(const std::filesystem::path& file) {
-  std::ifstream text(file);
-  if (!text && is_unfinished(file.parent_path()))
+  const bool is_there = std::filesystem::exists(file);
+  if (!is_there && is_unfinished(file.parent_path()))
     throw BadInput(
         fmt::format("{0}: was cut off before its end; seifbed run --resume {0} completes it, and "
                     "seifbed replay {0} makes a run of what there is",
                     file.parent_path().string()));
-  if (!text)
+  if (!is_there)
     throw BadInput(fmt::format("{}: cannot be read; a run writes it when it ends, and so does a replay of it",
                                file.string()));
+  std::ifstream text = open_input(file);
   try {
     return parse_summary(text);
   } catch (const Json::exception& error) {

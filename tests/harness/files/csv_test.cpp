@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
@@ -13,7 +14,9 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"
 #include "harness/files/csv_writer.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/fixtures.hpp"
+#include "harness/score/summary.hpp"
 
 namespace harness {
 namespace {
@@ -83,6 +86,18 @@ TEST(Csv, ALineWithoutEndUsesNoMemory) {
   write_file(folder / "a.csv", "a\n" + std::string(1 << 20, '1'));
   CsvReader reader(folder / "a.csv", {{"a"}, {}});
   EXPECT_THROW(reader.next(), BadInput);
+}
+
+TEST(Csv, WhatIsNoRegularFileIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "zeros");
+  std::filesystem::create_directory(folder / "folder");
+  for (const char* name : {"pipe", "zeros", "folder", "nothing"}) {
+    EXPECT_THROW(CsvReader(folder / name, {{"a"}, {}}), BadInput) << name;
+    EXPECT_THROW(read_whole_file(folder / name), BadInput) << name;
+    EXPECT_THROW(read_summary(folder / name), BadInput) << name;
+  }
 }
 
 TEST(Csv, NeverWritesOverAFile) {
