@@ -73,6 +73,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   loop.finish();
   recorder.close();
+  result.is_void = result.bad_input && loop.counts().updates == 0;
 
   Summary& summary = result.summary;
   summary.world = plan.name;
@@ -80,7 +81,8 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.version = program_version();
   summary.duration = loop.counts().t - log.start_t;
   summary.updates = loop.counts().updates;
-  summary.interrupted = loop.counts().interrupted;
+  summary.interrupted = loop.counts().interrupted || result.bad_input;
+  summary.error = result.error;
   summary.trajectory_hash = trajectory_hash(plan.folder);
   summary.realtime_factor = summary.duration / elapsed;
   summary.rpe_interval = plan.scoring.rpe_interval;

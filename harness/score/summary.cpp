@@ -103,6 +103,8 @@ Summary parse_summary(std::istream& text) {
   summary.duration = json.at("duration_s");
   summary.updates = json.at("updates");
   summary.interrupted = json.at("interrupted");
+  const Json error = json.value("error", Json(nullptr));
+  if (error.is_string()) summary.error = error.get<std::string>();
   summary.trajectory_hash = json.at("trajectory_hash");
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
@@ -149,6 +151,7 @@ std::string to_json(const Summary& summary) {
   json["duration_s"] = number(summary.duration);
   json["updates"] = summary.updates;
   json["interrupted"] = summary.interrupted;
+  if (!summary.error.empty()) json["error"] = summary.error;
   json["trajectory_hash"] = summary.trajectory_hash;
   json["realtime_factor"] = number(summary.realtime_factor);
   json["rpe_interval_s"] = number(summary.rpe_interval);
