@@ -253,8 +253,11 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
 std::string to_string(const Problem& problem) {
   const auto& [source, line, column] = problem.where;
   const std::string name = source ? *source : "";
-  return line > 0 ? fmt::format("{}:{}:{}: {}", name, line, column, problem.message)
-                  : fmt::format("{}: {}", name, problem.message);
+  std::string message = problem.message;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(message.begin(), message.end(), is_control, '?');  // one line, and no escape codes
+  return line > 0 ? fmt::format("{}:{}:{}: {}", name, line, column, message)
+                  : fmt::format("{}: {}", name, message);
 }
 
 void sort_by_place(std::vector<Problem>& problems) {
