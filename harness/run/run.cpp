@@ -81,7 +81,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.version = program_version();
   summary.duration = loop.counts().t - log.start_t;
   summary.updates = loop.counts().updates;
-  summary.interrupted = loop.counts().interrupted || result.bad_input;
+  summary.interrupted = loop.counts().interrupted;
   summary.error = result.error;
   summary.trajectory_hash = trajectory_hash(plan.folder);
   summary.realtime_factor = summary.duration / elapsed;
@@ -91,7 +91,9 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.left_out_t = loop.screening().first_t();
   summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
   for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
-  write_whole_file(plan.folder / "summary.json", to_json(summary));
+  Summary written = summary;
+  written.interrupted = summary.interrupted || result.bad_input;  // the folder holds a part of the log
+  write_whole_file(plan.folder / "summary.json", to_json(written));
   std::filesystem::remove(plan.folder / unfinished_mark);
   return result;
 }

@@ -200,6 +200,10 @@ TEST(CommandLine, ALogThatIsRefusedInItsMiddleLeavesAFolderThatSaysSo) {
   const Called score = call(folder, "score part");
   EXPECT_EQ(score.exit_code, 0);
   EXPECT_NE(score.errors.find(error), std::string::npos) << score.errors;
+  const Called whole = call(folder, "score run");
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_NE(whole.errors.find("no NIS and no NEES from the robot: " + error), std::string::npos)
+      << whole.errors;
 }
 
 TEST(CommandLine, ALogThatIsRefusedBeforeItsFirstScanLeavesNothing) {
