@@ -60,6 +60,7 @@ std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
     ++line;
     if (row.ends_with('\r')) row.pop_back();
     if (line == 1) {
+      if (row.starts_with("\xEF\xBB\xBF")) row.erase(0, 3);  // some editors begin UTF-8 files with it
       if (row == "t,v,omega") continue;
       refuse(
           "the first line must be the head t,v,omega");  // no more: another file's rows are not to be quoted

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t longest_line = 4096;  // [byte] far longer than any row of numbers
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin UTF-8 files with it
+
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
@@ -28,6 +30,7 @@ RowReader::RowReader(std::filesystem::path path, char separator)
 bool RowReader::read_line() {
   line_.clear();
   ++line_number_;
+  has_line_end_ = true;
   for (int c = file_.get(); c != std::ifstream::traits_type::eof(); c = file_.get()) {
     if (c == '\n') {
       if (!line_.empty() && line_.back() == '\r') line_.pop_back();
@@ -40,6 +43,7 @@ bool RowReader::read_line() {
   }
   if (file_.bad())
     throw BadInput(fmt::format("{}:{}:1: cannot be read further", path_.string(), line_number_));
+  has_line_end_ = false;
   return !line_.empty();
 }
 
@@ -63,6 +67,7 @@ void RowReader::split() {
 
 bool RowReader::next() {
   if (!read_line()) return false;
+  if (line_number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
   split();
   return true;
 }

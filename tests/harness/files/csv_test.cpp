@@ -50,15 +50,33 @@ TEST(Csv, NumbersComeBackBitForBit) {
   EXPECT_FALSE(reader.next());
 }
 
-TEST(Csv, ReadsWindowsLineEndsAndALastLineWithoutEnd) {
+TEST(Csv, ReadsWindowsLineEndsAndAByteOrderMark) {
   const TemporaryFolder folder;
-  write_file(folder / "a.csv", "a, b\r\n1, 2\r\n3,4");
+  write_file(folder / "a.csv",
+             "\xEF\xBB\xBF"
+             "a, b\r\n1, 2\r\n3,4\r\n");
   CsvReader reader(folder / "a.csv", {{"a", "b"}, {}});
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(reader.number(1), 2.0);
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(reader.number(1), 4.0);
   EXPECT_FALSE(reader.next());
+}
+
+TEST(Csv, ALastLineWithoutEndIsRefusedSinceTheFileMayBeCut) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.csv", "a,b\n1,2\n3,4e-0");
+  CsvReader reader(folder / "a.csv", {{"a", "b"}, {}});
+  ASSERT_TRUE(reader.next());
+  try {
+    reader.next();
+    FAIL() << "it was taken";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.what(),
+              (folder / "a.csv").string() + ":3:7: the last line has no line end: the file may be cut");
+  }
+  write_file(folder / "head.csv", "a,b");
+  EXPECT_THROW(CsvReader(folder / "head.csv", {{"a", "b"}, {}}), BadInput);
 }
 
 TEST(Csv, ColumnsOfNewerVersionsMayBeMissing) {
