@@ -36,6 +36,8 @@ constexpr double largest_sample = 1e6;             // [-]
 constexpr double slowest_film = 1e-3;              // [-] a slower one would not end
 constexpr double fastest_film = 1e6;               // [-]
 constexpr std::size_t longest_world_name = 200;    // [byte]
+constexpr std::size_t longest_list =
+    1000;  // [-] of generators, patches or faults: each looks at the whole world
 constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
 constexpr double largest_landmark_radius = 100;    // [m] of a landmark
 constexpr double most_landmarks = 1e7;             // [-] of one generator
@@ -78,6 +80,11 @@ void check_robot(Fields& fields, const Robot& robot) {
   }
 }
 
+void check_length(Fields& fields, std::string_view key, std::size_t count) {
+  if (count > longest_list)
+    fields.problem(key, fmt::format("'{}' must have at most {} items, not {}", key, longest_list, count));
+}
+
 void describe_robot(Fields& fields, Robot& robot) {
   fields.section("start", "where the middle of the axle is at the start",
                  [&](Fields& inner) { describe_placement(inner, robot.start, Need::defaulted); });
@@ -118,6 +125,7 @@ void describe_physics(Fields& fields, Physics& physics) {
         check_corners(inner, patch.min, patch.max);
       },
       "rectangles of the ground with a friction of their own; the later one counts");
+  check_length(fields, "patches", physics.patches.size());
 }
 
 void describe_landmark(Fields& fields, Landmark& landmark) {
@@ -463,6 +471,7 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
         "generators", file.generators,
         [&](Fields& item, Generator& generator) { describe_generator(item, generator, world.ground_size); },
         "landmarks placed by a rule, in this order");
+    check_length(inner, "generators", file.generators.size());
   });
   fields.section("obstacles", "what blocks motion and sight", [&](Fields& inner) {
     inner.list("boxes", world.boxes, describe_box, "boxes");
@@ -477,6 +486,7 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
                   [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
   });
   fields.list("faults", world.faults, describe_fault, "faults injected on purpose, each at its time");
+  check_length(fields, "faults", world.faults.size());
   fields.section("start_estimate", "standard deviations of the start that the estimators are given",
                  [&](Fields& inner) { describe_start_estimate(inner, world.start_estimate); });
   describe_estimators(fields, world, estimators);
