@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "world_files.hpp"
+#include "worlds/limits.hpp"
 
 namespace worlds {
 namespace {
@@ -350,6 +351,24 @@ TEST(LoadWorld, AnEstimatorMayBeCalledNull) {
   const LoadResult again = load_text(folder, first.resolved);
   ASSERT_TRUE(again.world) << test::text_of(again.problems) << first.resolved;
   EXPECT_EQ(again.world->estimators.back().name, "NULL");
+}
+
+TEST(LoadWorld, RefusesAWorldThatItsRunCouldNotReadAgain) {
+  const Folder folder;
+  std::string walls = "obstacles:\n  walls:\n";
+  for (int i = 0; i < 100; ++i)
+    walls += "    - {points_m: [[" + std::to_string(i + 2) + ", 5], [" + std::to_string(i + 2) + ", 9]]}\n";
+  const std::string ground = "ground: {size_m: [300, 300]}\n";
+  set_limits({.bytes = 12'000});
+  const LoadResult small = load_text(folder, ground);
+  const LoadResult large = load_text(folder, ground + walls);
+  set_limits({});
+  EXPECT_TRUE(small.world) << text_of(small.problems);
+  EXPECT_FALSE(large.world);
+  EXPECT_EQ(large.resolved, "");
+  EXPECT_NE(text_of(large.problems).find("with all defaults written out, as a run's folder holds it, this"),
+            std::string::npos)
+      << text_of(large.problems);
 }
 
 }  // namespace
