@@ -10,8 +10,7 @@
 
 #include "worlds/check_faults.hpp"
 #include "worlds/geometry.hpp"
-#include "worlds/point_grid.hpp"
-#include "worlds/shape_grid.hpp"
+#include "worlds/shape_tree.hpp"
 
 namespace worlds {
 namespace {
@@ -39,7 +38,7 @@ struct Check {
   const Node& document;
   const World& world;
   std::vector<Problem>& problems;
-  std::vector<Rectangle> solids;
+  ShapeTree solids;
   std::vector<std::string> solid_names;
 
   bool sound(const std::vector<std::string_view>& sections) const { return is_sound(problems, sections); }
@@ -121,13 +120,13 @@ void check_start(const Check& check) {
         "robot.start",
         fmt::format("the robot, which reaches {:.3f} m around its axle, starts off the ground", radius));
   }
-  for (std::size_t i = 0; i < check.solids.size(); ++i) {
-    if (distance(start, check.solids[i]) >= radius) continue;
+  check.solids.any_near(start, radius, [&](std::size_t i, const Rectangle& solid) {
+    if (distance(start, solid) >= radius) return false;
     check.refuse("robot.start",
                  fmt::format("the robot, which reaches {:.3f} m around its axle, starts inside of {}", radius,
                              check.solid_names[i]));
-    return;
-  }
+    return true;
+  });
 }
 
 /// Checks the corners of the path first, then its legs. A leg is only reported if both of its ends are good.
@@ -143,52 +142,53 @@ void check_path(const Check& check) {
     if (!on_ground(p, half_width, check.world.ground_size)) {
       check.refuse(path, corner + " is off the ground, or too close to its edge for the robot");
     }
-    for (std::size_t k = 0; k < check.solids.size(); ++k) {
-      if (distance(p, check.solids[k]) >= half_width) continue;
+    check.solids.any_near(p, half_width, [&](std::size_t k, const Rectangle& solid) {
+      if (distance(p, solid) >= half_width) return false;
       check.refuse(path, fmt::format("{} is inside of {}, or too close to it for the robot", corner,
                                      check.solid_names[k]));
-      break;
-    }
+      return true;
+    });
   }
   if (!check.sound({"drive"})) return;
   const std::vector<Segment> path_legs = legs(drive.path, drive.closed);
   for (std::size_t i = 0; i < path_legs.size(); ++i) {
-    const auto& [from, to] = path_legs[i];
-    for (std::size_t k = 0; k < check.solids.size(); ++k) {
-      if (distance(path_legs[i], check.solids[k]) >= half_width) continue;
+    const Segment& leg = path_legs[i];
+    check.solids.any_near(leg, half_width, [&](std::size_t k, const Rectangle& solid) {
+      if (distance(leg, solid) >= half_width) return false;
       check.refuse(has_corners ? fmt::format("drive.waypoints_m.{}", i) : "drive",
-                   fmt::format("the path from [{}, {}] to [{}, {}] meets {}", from.x(), from.y(), to.x(),
-                               to.y(), check.solid_names[k]));
-      break;
-    }
+                   fmt::format("the path from [{}, {}] to [{}, {}] meets {}", leg.from.x(), leg.from.y(),
+                               leg.to.x(), leg.to.y(), check.solid_names[k]));
+      return true;
+    });
   }
 }
 
 void check_landmarks_alone(const Check& check) {
   const std::vector<Landmark>& landmarks = check.world.landmarks;
-  PointGrid grid(2 * largest_radius(landmarks));
+  std::vector<Rectangle> shapes;  // squares around the landmarks
+  for (const Landmark& landmark : landmarks)
+    shapes.push_back(
+        {landmark.position, Eigen::Vector2d::UnitX(), Eigen::Vector2d::Constant(landmark.radius)});
+  const ShapeTree tree(std::move(shapes));
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const Landmark& landmark = landmarks[i];
     if (!on_ground(landmark.position, landmark.radius, check.world.ground_size)) {
       check.refuse_landmark(i, "the landmark is not wholly on the ground");
     }
-    grid.any_near(landmark.position, [&](std::size_t other, const Eigen::Vector2d& p) {
-      if ((landmark.position - p).norm() >= landmark.radius + landmarks[other].radius) return false;
+    tree.any_near(landmark.position, landmark.radius, [&](std::size_t other, const Rectangle& shape) {
+      const double apart = (landmark.position - shape.centre).norm();
+      if (other >= i || apart >= landmark.radius + landmarks[other].radius) return false;
       check.refuse_landmark(i, fmt::format("the landmark overlaps landmarks.placed.{}", other));
       return true;
     });
-    grid.add(landmark.position);
   }
 }
 
 void check_landmarks_in_obstacles(const Check& check) {
   const std::vector<Landmark>& landmarks = check.world.landmarks;
-  const double largest = largest_radius(landmarks);
-  ShapeGrid solids(check.world.ground_size, largest);
-  for (const Rectangle& solid : check.solids) solids.add(solid, largest);
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const Landmark& landmark = landmarks[i];
-    solids.any_near(landmark.position, [&](std::size_t solid, const Rectangle& shape) {
+    check.solids.any_near(landmark.position, landmark.radius, [&](std::size_t solid, const Rectangle& shape) {
       if (distance(landmark.position, shape) >= landmark.radius) return false;
       check.refuse_landmark(i, fmt::format("the landmark is inside of {}", check.solid_names[solid]));
       return true;
@@ -211,15 +211,15 @@ void check_landmarks_at_start(const Check& check) {
 void check_landmarks_on_path(const Check& check) {
   const std::vector<Landmark>& landmarks = check.world.landmarks;
   const double half_width = 0.5 * check.world.robot.track;
-  const double reach = half_width + largest_radius(landmarks);
-  ShapeGrid path(check.world.ground_size, reach);
-  for (const Segment& leg : legs(check.world.drive.path, check.world.drive.closed)) {
-    path.add(rectangle(leg, 0.0), reach);
-  }
+  std::vector<Rectangle> path_legs;
+  for (const Segment& leg : legs(check.world.drive.path, check.world.drive.closed))
+    path_legs.push_back(rectangle(leg, 0.0));
+  const ShapeTree path(std::move(path_legs));
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const Landmark& landmark = landmarks[i];
-    const bool on_path = path.any_near(landmark.position, [&](std::size_t, const Rectangle& leg) {
-      return distance(landmark.position, leg) < landmark.radius + half_width;
+    const double reach = landmark.radius + half_width;
+    const bool on_path = path.any_near(landmark.position, reach, [&](std::size_t, const Rectangle& leg) {
+      return distance(landmark.position, leg) < reach;
     });
     if (on_path)
       check.refuse_landmark(i, "the landmark stands in the way: the robot's path leads through it");
@@ -258,13 +258,13 @@ void refuse_value(const Node& document, std::string_view path, std::string messa
 }
 
 void check_film(const Node& document, const World& world, std::vector<Problem>& problems) {
-  check_film(Check{document, world, problems, {}, {}});
+  check_film(Check{document, world, problems, ShapeTree({}), {}});
 }
 
 void check_world(const Node& document, const World& world, std::vector<Problem>& problems) {
-  Check check{document, world, problems, {}, {}};
+  Check check{document, world, problems, ShapeTree({}), {}};
   if (is_sound(problems, {"obstacles"})) {
-    check.solids = solid_rectangles(world);
+    check.solids = ShapeTree(solid_rectangles(world));
     check.solid_names = names_of_solids(world);
   }
   check_rates(check);

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "worlds/input_file.hpp"
+
 namespace worlds {
 namespace {
 
@@ -48,18 +50,21 @@ std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
     problems.push_back({{source, line, line > 0 ? 1 : 0}, std::move(message), "drive.file"});
   };
   std::vector<VelocityCommand> commands;
-  std::error_code error;
-  std::ifstream stream(file);
-  if (!std::filesystem::is_regular_file(file, error) || !stream) {
-    refuse("the file of commands cannot be read");
+  if (const std::string why = why_no_input(file); !why.empty()) {
+    refuse("the file of commands cannot be read: " + why);
     return commands;
   }
+  std::ifstream stream(file);
+  if (!stream) refuse("the file of commands cannot be read");
   for (std::string row; std::getline(stream, row);) {
     ++line;
     if (row.ends_with('\r')) row.pop_back();
     if (line == 1) {
-      if (row != "t,v,omega") refuse("the first line must be the head t,v,omega");
-      continue;
+      if (row.starts_with("\xEF\xBB\xBF")) row.erase(0, 3);  // some editors begin UTF-8 files with it
+      if (row == "t,v,omega") continue;
+      refuse(
+          "the first line must be the head t,v,omega");  // no more: another file's rows are not to be quoted
+      return commands;
     }
     std::string message;
     const std::optional<VelocityCommand> command = parse_row(row, message);

@@ -17,6 +17,27 @@ namespace {
 
 // Limits that stop a typing mistake from asking for more than a machine has.
 constexpr double largest_height = 1e3;             // [m]
+constexpr double smallest_length = 1e-6;           // [m] of what divides or is squared
+constexpr double largest_clearance = 1e3;          // [m]
+constexpr double highest_turn_rate = 1e4;          // [deg/s]
+constexpr double highest_acceleration = 1e4;       // [m/s^2]
+constexpr double highest_turn_acceleration = 1e6;  // [deg/s^2]
+constexpr double largest_torque = 1e5;             // [N m]
+constexpr double highest_speed = 10;               // [m/s]
+constexpr double highest_density = 1e6;            // [1/m^2]
+constexpr double largest_range_sd = 1e3;           // [m]
+constexpr double smallest_angle_sd = 1e-6;         // [deg]
+constexpr double largest_angle_sd = 180;           // [deg]
+constexpr double largest_mount_offset = 10;        // [m]
+constexpr double most_false_detections = 100;      // [-] in a scan, on average; all of them may be linked
+constexpr double largest_sd_factor = 1e6;          // [-]
+constexpr double shortest_interval = 1e-6;         // [s]
+constexpr double largest_sample = 1e6;             // [-]
+constexpr double slowest_film = 1e-3;              // [-] a slower one would not end
+constexpr double fastest_film = 1e6;               // [-]
+constexpr std::size_t longest_world_name = 200;    // [byte]
+constexpr std::size_t longest_list =
+    1000;  // [-] of generators, patches or faults: each looks at the whole world
 constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
 constexpr double largest_landmark_radius = 100;    // [m] of a landmark
 constexpr double most_landmarks = 1e7;             // [-] of one generator
@@ -59,22 +80,30 @@ void check_robot(Fields& fields, const Robot& robot) {
   }
 }
 
+void check_length(Fields& fields, std::string_view key, std::size_t count) {
+  if (count > longest_list)
+    fields.problem(key, fmt::format("'{}' must have at most {} items, not {}", key, longest_list, count));
+}
+
 void describe_robot(Fields& fields, Robot& robot) {
   fields.section("start", "where the middle of the axle is at the start",
                  [&](Fields& inner) { describe_placement(inner, robot.start, Need::defaulted); });
   fields.number("mass_kg", robot.mass, more_than_up_to(0, 1000), "mass of the whole robot");
-  fields.number("wheel_mass_kg", robot.wheel_mass, at_least(0.1), "mass of one wheel");
+  fields.number("wheel_mass_kg", robot.wheel_mass, between(0.1, 1000), "mass of one wheel");
   fields.number("wheel_radius_m", robot.wheel_radius, between(0.02, 1), "radius of the wheels");
   fields.number("track_m", robot.track, between(0.05, 5), "distance between the wheels' contact points");
-  fields.number("motor_torque_nm", robot.motor_torque, more_than(0), "the most that one wheel's motor gives");
-  fields.number("max_speed_m_s", robot.max_speed, more_than_up_to(0, 10), "highest speed");
-  fields.angle("max_turn_rate_deg_s", robot.max_turn_rate, more_than(0), "highest turn rate");
-  fields.number("max_acceleration_m_s2", robot.max_acceleration, more_than(0), "highest acceleration");
-  fields.angle("max_turn_acceleration_deg_s2", robot.max_turn_acceleration, more_than(0),
-               "highest acceleration of the turn rate");
+  fields.number("motor_torque_nm", robot.motor_torque, more_than_up_to(0, largest_torque),
+                "the most that one wheel's motor gives");
+  fields.number("max_speed_m_s", robot.max_speed, more_than_up_to(0, highest_speed), "highest speed");
+  fields.angle("max_turn_rate_deg_s", robot.max_turn_rate, more_than_up_to(0, highest_turn_rate),
+               "highest turn rate");
+  fields.number("max_acceleration_m_s2", robot.max_acceleration, more_than_up_to(0, highest_acceleration),
+                "highest acceleration");
+  fields.angle("max_turn_acceleration_deg_s2", robot.max_turn_acceleration,
+               more_than_up_to(0, highest_turn_acceleration), "highest acceleration of the turn rate");
   fields.section("caster", "the frictionless third support", [&](Fields& inner) {
     inner.number("offset_m", robot.caster.offset, between(-5, 5), "forward of the axle; negative is behind");
-    inner.number("radius_m", robot.caster.radius, more_than(0), "radius");
+    inner.number("radius_m", robot.caster.radius, between(0.001, 1), "radius");
   });
   check_robot(fields, robot);
 }
@@ -96,6 +125,7 @@ void describe_physics(Fields& fields, Physics& physics) {
         check_corners(inner, patch.min, patch.max);
       },
       "rectangles of the ground with a friction of their own; the later one counts");
+  check_length(fields, "patches", physics.patches.size());
 }
 
 void describe_landmark(Fields& fields, Landmark& landmark) {
@@ -121,7 +151,7 @@ void describe_region(Fields& fields, Generator& generator, const Eigen::Vector2d
 
 void describe_count(Fields& fields, Generator& generator) {
   fields.integer("count", generator.count, between(1, most_landmarks), "landmarks to place", Need::optional);
-  fields.number("density_per_m2", generator.density, more_than(0),
+  fields.number("density_per_m2", generator.density, more_than_up_to(0, highest_density),
                 "landmarks to place, for each square metre", Need::optional);
   if (fields.sound() && (generator.count > 0) == (generator.density > 0)) {
     fields.problem(generator.count > 0 ? "density_per_m2" : "",
@@ -130,7 +160,7 @@ void describe_count(Fields& fields, Generator& generator) {
 }
 
 void describe_fixed_places(Fields& fields, Generator& generator) {
-  fields.number("jitter_m", generator.jitter, at_least(0),
+  fields.number("jitter_m", generator.jitter, between(0, largest_clearance),
                 "random shift of each place, at most, in x and in y");
   fields.boolean("skip_blocked", generator.skip_blocked, "leave out places that are not free");
 }
@@ -139,9 +169,10 @@ void describe_corridor(Fields& fields, Generator& generator) {
   fields.points("points_m", generator.points, coordinate(), 2, "the line; by default the path of the drive",
                 Need::optional);
   fields.boolean("closed", generator.closed, "whether it also runs from the last point back to the first");
-  fields.number("offset_m", generator.offset, more_than(0),
+  fields.number("offset_m", generator.offset, more_than_up_to(0, largest_ground),
                 "distance from the line to the landmarks on either side");
-  fields.number("spacing_m", generator.spacing, more_than(0), "distance between landmarks along the line");
+  fields.number("spacing_m", generator.spacing, more_than_up_to(0, largest_ground),
+                "distance between landmarks along the line");
   describe_fixed_places(fields, generator);
 }
 
@@ -154,19 +185,22 @@ std::vector<Fields::Case> generator_cases(Generator& generator, const Eigen::Vec
       {"uniform", "anywhere in the region", region_and_count},
       {"poisson_disk", "anywhere in the region, but not close to each other",
        [&, region_and_count](Fields& fields) {
-         fields.number("distance_m", generator.distance, more_than(0), "at least, between centres");
+         fields.number("distance_m", generator.distance, more_than_up_to(0, largest_ground),
+                       "at least, between centres");
          region_and_count(fields);
        }},
       {"grid", "in the middle of each cell of a grid",
        [&, ground_size](Fields& fields) {
-         fields.vector2("cell_m", generator.cell, more_than(0), "size of a cell", Need::required);
+         fields.vector2("cell_m", generator.cell, more_than_up_to(0, largest_ground), "size of a cell",
+                        Need::required);
          describe_region(fields, generator, ground_size);
          describe_fixed_places(fields, generator);
        }},
       {"ring", "evenly around a circle",
        [&](Fields& fields) {
          fields.vector2("centre_m", generator.centre, coordinate(), "centre of the circle");
-         fields.number("ring_radius_m", generator.ring_radius, more_than(0), "radius of the circle");
+         fields.number("ring_radius_m", generator.ring_radius, more_than_up_to(0, largest_ground),
+                       "radius of the circle");
          fields.integer("count", generator.count, between(1, most_landmarks), "landmarks to place",
                         Need::required);
          describe_fixed_places(fields, generator);
@@ -174,7 +208,8 @@ std::vector<Fields::Case> generator_cases(Generator& generator, const Eigen::Vec
       {"clusters", "around points anywhere in the region",
        [&, region_and_count](Fields& fields) {
          fields.integer("clusters", generator.clusters, between(1, most_clusters), "how many clusters");
-         fields.number("cluster_sd_m", generator.cluster_sd, more_than(0), "standard deviation of a cluster");
+         fields.number("cluster_sd_m", generator.cluster_sd, more_than_up_to(0, largest_ground),
+                       "standard deviation of a cluster");
          region_and_count(fields);
        }},
       {"corridor", "on both sides along a line",
@@ -190,11 +225,11 @@ void describe_generator(Fields& fields, Generator& generator, const Eigen::Vecto
                 "radius of each landmark");
   fields.integer("max_tries", generator.max_tries, between(1, most_tries), "tries to place each landmark");
   fields.section("clear_m", "how far the surface of a landmark stays from other things", [&](Fields& inner) {
-    inner.number("walls", generator.clear.walls, at_least(0),
+    inner.number("walls", generator.clear.walls, between(0, largest_clearance),
                  "least distance from the surfaces of walls and boxes");
-    inner.number("path", generator.clear.path, at_least(0),
+    inner.number("path", generator.clear.path, between(0, largest_clearance),
                  "least distance from the path that the robot is meant to drive");
-    inner.number("landmarks", generator.clear.landmarks, at_least(0),
+    inner.number("landmarks", generator.clear.landmarks, between(0, largest_clearance),
                  "least distance from the surfaces of other landmarks");
   });
 }
@@ -220,8 +255,9 @@ void describe_wall(Fields& fields, Wall& wall) {
 }
 
 void describe_pursuit(Fields& fields, Drive& drive) {
-  fields.number("speed_m_s", drive.speed, more_than(0), "cruising speed");
-  fields.number("lookahead_m", drive.lookahead, more_than(0), "lookahead distance of the pure pursuit");
+  fields.number("speed_m_s", drive.speed, more_than_up_to(0, highest_speed), "cruising speed");
+  fields.number("lookahead_m", drive.lookahead, between(0.001, largest_clearance),
+                "lookahead distance of the pure pursuit");
 }
 
 void describe_waypoints(Fields& fields, Drive& drive, bool closed) {
@@ -240,7 +276,7 @@ void describe_serpentine(Fields& fields, Drive& drive, SerpentineArea& area) {
   describe_pursuit(fields, drive);
   fields.vector2("min_m", area.min, coordinate(), "lower left corner of the area", Need::required);
   fields.vector2("max_m", area.max, coordinate(), "upper right corner of the area", Need::required);
-  fields.number("lane_m", area.lane, more_than(0), "at most, from lane to lane");
+  fields.number("lane_m", area.lane, more_than_up_to(0, largest_ground), "at most, from lane to lane");
   fields.boolean("closed", drive.closed, "whether the robot drives back to the first lane and begins again");
   check_corners(fields, area.min, area.max);
   if (fields.sound() && area.max.y() - area.min.y() > most_lanes * area.lane) {
@@ -260,7 +296,7 @@ std::vector<Fields::Case> drive_cases(Drive& drive, SerpentineArea& area) {
       {"explore", "drive at random, clear of everything",
        [&](Fields& fields) {
          describe_pursuit(fields, drive);
-         fields.number("clearance_m", drive.clearance, more_than(0),
+         fields.number("clearance_m", drive.clearance, more_than_up_to(0, largest_clearance),
                        "least distance from the robot's centre to anything solid");
        }},
       {"commands", "recorded velocities",
@@ -286,7 +322,7 @@ void describe_encoders(Fields& fields, Encoders& encoders) {
                  "odometry; divides physics.step_rate_hz");
   fields.integer("ticks_per_revolution", encoders.ticks_per_revolution, between(0, 1e9),
                  "resolution; 0: no quantisation");
-  fields.number("distance_sd_m_per_sqrt_m", encoders.distance_sd, at_least(0),
+  fields.number("distance_sd_m_per_sqrt_m", encoders.distance_sd, between(0, 10),
                 "random error of one wheel after 1 m rolled");
   fields.number("diameter_ratio", encoders.diameter_ratio, between(0.5, 2),
                 "right over left wheel diameter, actual over assumed");
@@ -301,18 +337,21 @@ void describe_encoders(Fields& fields, Encoders& encoders) {
 void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
   fields.integer("rate_hz", sensor.rate, between(1, highest_step_rate),
                  "scans; divides physics.step_rate_hz");
-  fields.section("mount", "where the sensor sits on the robot, from the middle of the axle",
-                 [&](Fields& inner) { describe_placement(inner, sensor.mount, Need::defaulted); });
+  fields.section(
+      "mount", "where the sensor sits on the robot, from the middle of the axle",
+      [&](Fields& inner) { describe_placement(inner, sensor.mount, Need::defaulted, largest_mount_offset); });
   fields.number("max_range_m", sensor.max_range, more_than_up_to(0, largest_ground),
                 "largest distance to a landmark's centre at which it is seen");
   fields.angle("fov_deg", sensor.fov, more_than_up_to(0, 360), "full angle, centred on the sensor's x");
-  fields.number("range_sd_m", sensor.range_sd, more_than(0), "standard deviation of a range");
-  fields.number("range_sd_per_m", sensor.range_sd_per_m, at_least(0),
+  fields.number("range_sd_m", sensor.range_sd, between(smallest_length, largest_range_sd),
+                "standard deviation of a range");
+  fields.number("range_sd_per_m", sensor.range_sd_per_m, between(0, 10),
                 "what each metre of range adds to the standard deviation, in quadrature");
-  fields.angle("bearing_sd_deg", sensor.bearing_sd, more_than(0), "standard deviation of a bearing");
+  fields.angle("bearing_sd_deg", sensor.bearing_sd, between(smallest_angle_sd, largest_angle_sd),
+               "standard deviation of a bearing");
   fields.number("miss_probability", sensor.miss_probability, between(0, 1),
                 "that a visible landmark is not reported");
-  fields.number("false_detections_per_scan", sensor.false_detections, between(0, 1000),
+  fields.number("false_detections_per_scan", sensor.false_detections, between(0, most_false_detections),
                 "mean number (Poisson)");
   describe_choice(
       fields, "ids", sensor.ids, landmark_ids_names,
@@ -336,9 +375,11 @@ void describe_estimator(Fields& fields, EstimatorChoice& choice, const Estimator
   if (names_a_type) choice.type = choice.name;
   fields.variant("type", choice.type, cases, "kind of estimator; by default its name",
                  names_a_type ? Need::defaulted : Need::required);
-  fields.number("odometry_sd_factor", choice.odometry_sd_factor, more_than(0),
+  fields.number("odometry_sd_factor", choice.odometry_sd_factor,
+                between(1 / largest_sd_factor, largest_sd_factor),
                 "odometry noise that the filter assumes, over that of the sensor");
-  fields.number("observation_sd_factor", choice.observation_sd_factor, more_than(0),
+  fields.number("observation_sd_factor", choice.observation_sd_factor,
+                between(1 / largest_sd_factor, largest_sd_factor),
                 "observation noise that the filter assumes, over that of the sensor");
   const std::string hint = suggestion(choice.name, types);
   if (!names_a_type && choice.type.empty() && !hint.empty()) {
@@ -358,11 +399,21 @@ void describe_estimators(Fields& fields, World& world, const EstimatorSchemas& s
                });
 }
 
+void describe_start_estimate(Fields& fields, StartEstimate& start) {
+  constexpr double largest_start_sd = 1e4;  // [m]
+  const Range length = between(smallest_length, largest_start_sd);
+  fields.number("x_sd_m", start.x_sd, length, "standard deviation of x");
+  fields.number("y_sd_m", start.y_sd, length, "standard deviation of y");
+  fields.angle("heading_sd_deg", start.heading_sd, between(smallest_angle_sd, largest_angle_sd),
+               "standard deviation of the heading");
+}
+
 void describe_scoring(Fields& fields, Scoring& scoring) {
-  fields.number("interval_s", scoring.interval, more_than(0), "time between two scorings of consistency");
-  fields.integer("landmark_sample", scoring.landmark_sample, at_least(1),
+  fields.number("interval_s", scoring.interval, between(shortest_interval, longest_duration),
+                "time between two scorings of consistency");
+  fields.integer("landmark_sample", scoring.landmark_sample, between(1, largest_sample),
                  "landmarks that are scored for consistency, at the most");
-  fields.number("rpe_interval_s", scoring.rpe_interval, more_than(0),
+  fields.number("rpe_interval_s", scoring.rpe_interval, between(shortest_interval, longest_duration),
                 "time over which the relative pose error is taken");
 }
 
@@ -384,8 +435,10 @@ void describe_film(Fields& fields, Film& film) {
   film.width = static_cast<int>(size.x());
   film.height = static_cast<int>(size.y());
   fields.integer("fps", film.fps, between(1, highest_film_rate), "frames for each second of the film");
-  fields.number("speed", film.speed, at_least(0),
+  fields.number("speed", film.speed, between(0, fastest_film),
                 "simulated over film time; 0: so that the film takes 40 s at the most");
+  if (fields.sound() && film.speed > 0 && film.speed < slowest_film)
+    fields.problem("speed", fmt::format("'speed' must be 0 or at least {}", slowest_film));
   describe_camera(fields, film);
   fields.names("estimators", film.estimators, most_filmed,
                "one or two names; none: seif and ekf if they run, or the first two");
@@ -399,9 +452,13 @@ void describe_film(Fields& fields, Film& film) {
 void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& estimators) {
   World& world = file.world;
   fields.text("name", world.name, "name of the world; by default the file's name");
+  if (fields.sound() && world.name.find_first_of("\n\t") != std::string::npos)
+    fields.problem("name", "'name' must be one line without tabs");
+  if (fields.sound() && world.name.size() > longest_world_name)
+    fields.problem("name", fmt::format("'name' must have at most {} bytes", longest_world_name));
   fields.text("description", world.description, "one sentence on what the world shows");
   fields.text("seifbed_version", file.version, "the program that resolved this file", Need::optional);
-  fields.integer("seed", world.seed, at_least(0), "seed of all random numbers");
+  fields.integer("seed", world.seed, between(0, beyond_integers), "seed of all random numbers");
   fields.number("duration_s", world.duration, more_than_up_to(0, longest_duration), "length of the run");
   fields.section("ground", "the ground, centred on the origin", [&](Fields& inner) {
     inner.vector2("size_m", world.ground_size, between(1, largest_ground), "size along x and y");
@@ -414,6 +471,7 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
         "generators", file.generators,
         [&](Fields& item, Generator& generator) { describe_generator(item, generator, world.ground_size); },
         "landmarks placed by a rule, in this order");
+    check_length(inner, "generators", file.generators.size());
   });
   fields.section("obstacles", "what blocks motion and sight", [&](Fields& inner) {
     inner.list("boxes", world.boxes, describe_box, "boxes");
@@ -428,13 +486,9 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
                   [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
   });
   fields.list("faults", world.faults, describe_fault, "faults injected on purpose, each at its time");
+  check_length(fields, "faults", world.faults.size());
   fields.section("start_estimate", "standard deviations of the start that the estimators are given",
-                 [&](Fields& inner) {
-                   inner.number("x_sd_m", world.start_estimate.x_sd, more_than(0), "standard deviation of x");
-                   inner.number("y_sd_m", world.start_estimate.y_sd, more_than(0), "standard deviation of y");
-                   inner.angle("heading_sd_deg", world.start_estimate.heading_sd, more_than(0),
-                               "standard deviation of the heading");
-                 });
+                 [&](Fields& inner) { describe_start_estimate(inner, world.start_estimate); });
   describe_estimators(fields, world, estimators);
   fields.section("scoring", "how the run is scored",
                  [&](Fields& inner) { describe_scoring(inner, world.scoring); });

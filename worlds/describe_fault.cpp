@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infini
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
 
+constexpr double largest_outlier = 1e9;  // [sigma] a check against the noise refuses most before
 constexpr double largest_jump = 36'000;  // [deg] one hundred turns
 
 std::vector<Fields::Case> fault_cases(Fault& fault) {
@@ -28,7 +29,7 @@ std::vector<Fields::Case> fault_cases(Fault& fault) {
        }},
       {"outlier", "the bearing of the first landmark that is seen is off",
        [&](Fields& fields) {
-         fields.number("size_sigma", fault.size, any_number(),
+         fields.number("size_sigma", fault.size, between(-largest_outlier, largest_outlier),
                        "error in standard deviations, counter-clockwise", Need::required);
        }},
       {"encoder_jump", "the encoder of a wheel jumps, and goes on from there",

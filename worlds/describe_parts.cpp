@@ -6,9 +6,9 @@
 
 namespace worlds {
 
-void describe_placement(Fields& fields, Placement& placement, Need need) {
-  fields.number("x_m", placement.position.x(), coordinate(), "east", need);
-  fields.number("y_m", placement.position.y(), coordinate(), "north", need);
+void describe_placement(Fields& fields, Placement& placement, Need need, double farthest) {
+  fields.number("x_m", placement.position.x(), between(-farthest, farthest), "east", need);
+  fields.number("y_m", placement.position.y(), between(-farthest, farthest), "north", need);
   fields.angle("heading_deg", placement.heading, between(-360, 360), "counter-clockwise from east");
   placement.heading = std::remainder(placement.heading, 360 * degree);
   if (placement.heading <= -180 * degree) placement.heading = 180 * degree;

@@ -41,6 +41,7 @@ void describe_choice(Fields& fields, std::string_view key, Enum& value,
 /// The range of a coordinate.
 inline Range coordinate() { return between(-largest_ground, largest_ground); }
 
-void describe_placement(Fields& fields, Placement& placement, Need need);
+/// `farthest` [m]: the largest coordinate, in x and in y.
+void describe_placement(Fields& fields, Placement& placement, Need need, double farthest = largest_ground);
 
 }  // namespace worlds

@@ -12,10 +12,10 @@
 #include <map>
 #include <set>
 #include <sstream>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
+#include "worlds/input_file.hpp"
 #include "worlds/limits.hpp"
 
 namespace worlds {
@@ -253,8 +253,11 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
 std::string to_string(const Problem& problem) {
   const auto& [source, line, column] = problem.where;
   const std::string name = source ? *source : "";
-  return line > 0 ? fmt::format("{}:{}:{}: {}", name, line, column, problem.message)
-                  : fmt::format("{}: {}", name, problem.message);
+  std::string message = problem.message;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(message.begin(), message.end(), is_control, '?');  // one line, and no escape codes
+  return line > 0 ? fmt::format("{}:{}:{}: {}", name, line, column, message)
+                  : fmt::format("{}: {}", name, message);
 }
 
 void sort_by_place(std::vector<Problem>& problems) {
@@ -325,16 +328,11 @@ std::optional<Node> parse_document(std::string_view text, const std::string& sou
 }
 
 std::optional<Node> read_document(const std::filesystem::path& file, std::vector<Problem>& problems) {
-  const auto refuse = [&](const char* why) {
+  const auto refuse = [&](const std::string& why) {
     problems.push_back({{std::make_shared<const std::string>(file.string()), 0, 0}, why, ""});
     return std::nullopt;
   };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) return refuse("there is no such file");
-  if (error) return refuse(("the file cannot be read: " + error.message()).c_str());
-  if (std::filesystem::is_directory(status)) return refuse("this is a directory, not a file");
-  if (!std::filesystem::is_regular_file(status)) return refuse("this is no regular file");
+  if (const std::string why = why_no_input(file); !why.empty()) return refuse(why);
   const std::optional<std::string> text = read_text(file);
   if (!text) return refuse("the file cannot be read");
   return parse_document(*text, file.string(), problems);

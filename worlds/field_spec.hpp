@@ -2,17 +2,23 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace worlds {
 
-/// The numbers that are allowed, in the unit of the key. They must be finite.
+/// No quantity of a world or a log is larger, in any unit. A larger number is a typing mistake, and its square
+/// might not be finite. [-]
+inline constexpr double largest_number = 1e12;
+
+/// The bound of integers: 2^63, which itself is none of them. [-]
+inline constexpr double beyond_integers = 9223372036854775808.0;
+
+/// The numbers that are allowed, in the unit of the key. They must be finite, and so are both bounds.
 struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -largest_number;
+  double max = largest_number;
   bool excludes_min = false;
   double multiple_of = 0.0;  // [-] 0: any number
 };
@@ -44,7 +50,11 @@ struct FieldSpec {
   std::size_t max_count = 0;              // lists of names: the most names
 };
 
-/// The names that a map of named things may use: [A-Za-z0-9_-]+, except the reserved ones.
+/// Names are those of files, too: they are short, and not mistaken for an option. [-] characters
+inline constexpr std::size_t longest_name = 64;
+
+/// The names that a map of named things may use: at most longest_name letters, digits, '_' and '-', the first
+/// of them not '-', except the reserved ones.
 struct NameRule {
   std::vector<std::string> reserved;
   std::vector<std::string> known;  // names with a fixed meaning: the schema describes each of them

@@ -112,6 +112,11 @@ std::string_view unit_of_key(std::string_view key) {
   return "";
 }
 
+std::string show_bound(double bound) {
+  if (bound >= beyond_integers) return fmt::format("{}", std::numeric_limits<std::int64_t>::max());
+  return fmt::format("{}", bound);
+}
+
 std::string suggestion(std::string_view written, const std::vector<std::string>& choices) {
   constexpr std::size_t longest = 64;  // longer texts are not typing mistakes
   if (written.size() > longest) return "";

@@ -59,7 +59,8 @@ class Fields {
     field({.key = key,
            .help = help,
            .need = need,
-           .range = {.min = std::max(range.min, lowest), .max = std::min(range.max, highest)}},
+           .range = {.min = std::max(range.min, lowest),
+                     .max = std::min({range.max, highest, beyond_integers})}},
           &wide);
     value = static_cast<T>(wide);
   }
@@ -133,6 +134,9 @@ bool read_fields(Node& document, const std::function<void(Fields&)>& describe,
 
 /// The unit that the end of a key tells, as in "m/s"; empty if the key tells no unit.
 std::string_view unit_of_key(std::string_view key);
+
+/// A bound of a range, in words.
+std::string show_bound(double bound);
 
 /// " (did you mean 'x'?)" with the choice that is most similar to what was written; empty if no choice is
 /// similar.

@@ -1,5 +1,5 @@
-// Finds out where a landmark can stand. The cost of a query does not grow with the number of landmarks or
-// walls.
+// Finds out where a landmark can stand. The cost of a query does not grow with the number of landmarks, and with
+// the logarithm of that of walls and of legs of the path.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 #include "worlds/geometry.hpp"
 #include "worlds/point_grid.hpp"
-#include "worlds/shape_grid.hpp"
+#include "worlds/shape_tree.hpp"
 #include "worlds/world.hpp"
 
 namespace worlds {
@@ -33,17 +33,18 @@ class FreeSpace {
   void add(const Eigen::Vector2d& p);
 
  private:
-  void keep_out(const Rectangle& shape, double clearance);
+  /// The shapes from which landmarks keep away; enters the distances of their centres.
+  std::vector<Rectangle> keep_outs(const World& world, const Clearances& clear);
 
-  Eigen::Vector2d ground_size_;  // [m]
-  double radius_;                // [m]
-  double own_distance_;          // [m]
-  double clear_landmarks_;       // [m]
-  std::size_t foreign_count_;    // [-] points below this index were in the world before
-  std::vector<double> radii_;    // [m] of all landmarks
-  PointGrid points_;             // of all landmarks
-  ShapeGrid keep_outs_;
+  Eigen::Vector2d ground_size_;     // [m]
+  double radius_;                   // [m]
+  double own_distance_;             // [m]
+  double clear_landmarks_;          // [m]
+  std::size_t foreign_count_;       // [-] points below this index were in the world before
+  std::vector<double> radii_;       // [m] of all landmarks
+  PointGrid points_;                // of all landmarks
   std::vector<double> clearances_;  // [m] for each keep-out: least distance to a landmark's centre
+  ShapeTree keep_outs_;
 };
 
 }  // namespace worlds

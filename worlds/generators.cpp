@@ -160,12 +160,14 @@ Placed generate(const Generator& generator, World& world, std::mt19937_64& rando
   const bool fixed = has_fixed_places(generator);
   const std::int64_t tries = fixed && generator.jitter == 0 ? 1 : generator.max_tries;
   Placed result{0, static_cast<std::int64_t>(wanted_landmarks(generator, world))};
+  const std::int64_t most_tries = 4 * limits().fruitless_tries + 10 * result.wanted;  // [-] in all
+  std::int64_t all_tries = 0;                                                         // [-]
   std::int64_t fruitless = 0;  // [-] tries since the last success
   for (std::int64_t i = 0, end = result.wanted; i < end; ++i) {
     bool placed = false;
     for (std::int64_t k = 0; k < tries && !placed; ++k) {
       const Eigen::Vector2d p = candidate(i);
-      if (++fruitless > limits().fruitless_tries) return result;
+      if (++fruitless > limits().fruitless_tries || ++all_tries > most_tries) return result;
       if (!in_region(generator, p) || !space.is_free(p)) continue;
       fruitless = 0;
       space.add(p);

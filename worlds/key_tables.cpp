@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -31,12 +30,9 @@ struct Row {
 
 // The allowed values, in words.
 
-constexpr double largest_told = 1e15;  // a larger limit is that of the number's type
-
 std::string range_text(const Range& range) {
   std::string text;
-  if (std::isfinite(range.min)) text += fmt::format(" {} {}", range.excludes_min ? ">" : "≥", range.min);
-  if (range.max < largest_told) text += fmt::format("{} ≤ {}", text.empty() ? "" : " and", range.max);
+  text += fmt::format(" {} {} and ≤ {}", range.excludes_min ? ">" : "≥", range.min, show_bound(range.max));
   if (range.multiple_of > 0) text += fmt::format(", a multiple of {}", range.multiple_of);
   return text;
 }

@@ -99,6 +99,18 @@ std::optional<Node> read_document_with_overrides(const std::filesystem::path& fi
   return document;
 }
 
+/// A run writes the resolved world to its folder, and reads it again for scores and replays.
+void check_resolved(const Node& document, const std::string& resolved, std::vector<Problem>& problems) {
+  std::vector<Problem> found;
+  if (resolved.size() <= limits().bytes / 2) return;  // too small to meet a limit that the file has not met
+  if (parse_document(resolved, "resolved", found)) return;
+  problems.push_back({document.where,
+                      fmt::format("with all defaults written out, as a run's folder holds it, this world has "
+                                  "{}",
+                                  found.front().message),
+                      ""});
+}
+
 void set_version(Node& document, std::string_view version) {
   if (version.empty()) return;
   if (document.find("seifbed_version") == nullptr) {
@@ -110,7 +122,8 @@ void set_version(Node& document, std::string_view version) {
 }  // namespace
 
 LoadResult load_world(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                      const EstimatorSchemas& estimators, std::string_view version) {
+                      const EstimatorSchemas& estimators, std::string_view version,
+                      const FurtherCheck& check) {
   LoadResult result;
   std::vector<Problem>& problems = result.problems;
   std::optional<Node> document = read_document_with_overrides(file, overrides, problems);
@@ -121,13 +134,20 @@ LoadResult load_world(const std::filesystem::path& file, const std::vector<std::
         *document, [&](Fields& fields) { describe_world(fields, world_file, estimators); }, problems);
     prepare_drive(file, world_file, *document, problems);
     check_world(*document, world_file.world, problems);
+    if (check && is_sound(problems, {"name", "seed", "robot", "sensors", "start_estimate", "estimators"}))
+      check(*document, world_file.world, problems);
     if (is_sound(problems, {"ground", "robot", "obstacles", "landmarks", "drive", "seed"})) {
       generate_landmarks(*document, world_file, problems);
     }
     if (problems.empty()) {
       set_version(*document, version);
       result.resolved = emit(*document);
+      check_resolved(*document, result.resolved, problems);
+    }
+    if (problems.empty()) {
       result.world = std::move(world_file.world);
+    } else {
+      result.resolved.clear();
     }
   } else if (document) {
     problems.push_back({document->where, "a world file must be a map of sections", ""});

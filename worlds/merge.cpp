@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "worlds/input_file.hpp"
+
 namespace worlds {
 namespace {
 
@@ -38,6 +40,13 @@ fs::path same_name(const fs::path& file) {
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(file, error);
   return error ? file : canonical;
+}
+
+/// Whether the file, or what it is a link to, is named as world files are. Nothing else is read, since messages
+/// about a file quote what stands in it.
+bool is_named_as_world(const fs::path& file) {
+  const fs::path extension = same_name(file).extension();
+  return extension == ".yaml" || extension == ".yml";
 }
 
 /// Removes `extends` from a map, and returns it. Nothing if there is none.
@@ -75,14 +84,16 @@ std::optional<Node> read_chain(const fs::path& file, std::vector<fs::path>& chai
   if (std::any_of(chain.begin(), chain.end(), is_base)) {
     return refuse("'extends' goes in a circle: " + show_chain(chain, base_file));
   }
-  std::error_code error;
-  if (!fs::is_regular_file(base_file, error)) {
-    return refuse(fmt::format("'extends' names a file that is not there: {}", base_file.string()));
-  }
+  if (const std::string why = why_no_input(base_file); !why.empty())
+    return refuse(fmt::format("'extends' names no file that can be read: {}: {}", base_file.string(), why));
+  if (!is_named_as_world(base_file))
+    return refuse(fmt::format("'extends' names a file that is no world file, which ends in .yaml or .yml: {}",
+                              base_file.string()));
   std::optional<Node> base = read_chain(base_file, chain, problems);
   if (!base) return std::nullopt;
   if (base->kind != Node::Kind::map || node->kind != Node::Kind::map) {
-    return refuse(fmt::format("'extends' names a file that is no map of sections: {}", base_file.string()));
+    return refuse(fmt::format("'extends' names a file that is no world file, which is a map of sections: {}",
+                              base_file.string()));
   }
   merge(*base, *std::move(node));
   return base;

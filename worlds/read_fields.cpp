@@ -48,14 +48,36 @@ std::string describe_range(const Range& range, std::string_view unit) {
     bounds.multiple_of = 0.0;
     return fmt::format("a multiple of {}, {}", range.multiple_of, describe_range(bounds, unit));
   }
-  if (!std::isfinite(range.min)) return fmt::format("at most {}{}{}", range.max, space, unit);
-  if (!std::isfinite(range.max)) return fmt::format("{} {}{}{}", least, range.min, space, unit);
-  return fmt::format("{} {} and at most {}{}{}", least, range.min, range.max, space, unit);
+  if (range.min <= -largest_number) return fmt::format("at most {}{}{}", show_bound(range.max), space, unit);
+  if (range.max == largest_number) return fmt::format("{} {}{}{}", least, range.min, space, unit);
+  return fmt::format("{} {} and at most {}{}{}", least, range.min, show_bound(range.max), space, unit);
 }
 
 bool contains(const Range& range, double value) {
   if (range.multiple_of > 0 && std::fmod(value, range.multiple_of) != 0.0) return false;
   return value <= range.max && (range.excludes_min ? value > range.min : value >= range.min);
+}
+
+/// The beginning of a text, for messages.
+std::string shown(const std::string& text) {
+  constexpr std::size_t longest = 40;
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
+std::string name_alphabet() {
+  return fmt::format("at most {} letters, digits, '_' and '-', not beginning with '-'", longest_name);
+}
+
+/// Whether a text holds a control character that is no line end and no tab. Such a text could not be read back
+/// from the files of a run.
+bool has_control_character(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto code = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : ' ');
+    if ((code < 0x20 && code != '\n' && code != '\t') || code == 0x7F) return true;
+    if (code == 0xC2 && next >= 0x80 && next < 0xA0) return true;  // U+0080 to U+009F
+  }
+  return false;
 }
 
 /// Describes a value, for messages.
@@ -70,10 +92,8 @@ std::string describe_node(const Node& node) {
     case Node::Kind::scalar:
       break;
   }
-  constexpr std::size_t longest = 40;
-  std::string shown = node.text.substr(0, longest);
-  if (shown.size() < node.text.size()) shown += "...";
-  return node.quoted ? fmt::format("the quoted text \"{}\"", shown) : fmt::format("'{}'", shown);
+  return node.quoted ? fmt::format("the quoted text \"{}\"", shown(node.text))
+                     : fmt::format("'{}'", shown(node.text));
 }
 
 std::string join(const std::vector<std::string>& words) {
@@ -83,9 +103,11 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 bool is_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
+  return !text.empty() && text.size() <= longest_name && text.front() != '-' &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                  c == '-';
+         });
 }
 
 Node make_scalar(std::string text, bool quoted, const Location& where) {
@@ -182,7 +204,7 @@ class Reader : public Fields {
         problems_.push_back({entry.where, fmt::format("the name '{}' is taken", entry.key), path});
       } else if (!is_name(entry.key)) {
         problems_.push_back(
-            {entry.where, fmt::format("'{}' is no name: use letters, digits, '_' and '-'", entry.key), path});
+            {entry.where, fmt::format("'{}' is no name: use {}", shown(entry.key), name_alphabet()), path});
       } else if (expect_kind(entry.value, Node::Kind::map, path, entry.key)) {
         read_map(entry.value, path, "", [&](Fields& fields) { describe(fields, entry.key); });
       }
@@ -312,7 +334,8 @@ class Reader : public Fields {
     std::int64_t value = 0;
     const char* const end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
-    if (error == std::errc::result_out_of_range) return refuse(node, path, spec, "smaller");
+    if (error == std::errc::result_out_of_range)
+      return refuse(node, path, spec, describe_range(spec.range, unit(spec.key)));
     if (error != std::errc() || stop != end) return refuse(node, path, spec, "a whole number");
     if (!contains(spec.range, static_cast<double>(value))) {
       return refuse(node, path, spec, describe_range(spec.range, unit(spec.key)));
@@ -335,6 +358,8 @@ class Reader : public Fields {
       return refuse(node, path, spec,
                     node.kind == Node::Kind::scalar ? "a text (put it in quotes)" : "a text");
     }
+    if (has_control_character(node.text))
+      return refuse(node, path, spec, "a text without control characters");
     const auto& choices = spec.choices;
     if (!choices.empty() && std::find(choices.begin(), choices.end(), node.text) == choices.end()) {
       problems_.push_back({node.where,
@@ -396,7 +421,7 @@ class Reader : public Fields {
       read(item, item_path, spec, value[i]);
       const auto end = value.begin() + static_cast<std::ptrdiff_t>(i);
       if (item.kind == Node::Kind::scalar && !is_name(item.text)) {
-        refuse(item, item_path, spec, "a list of names of letters, digits, '_' and '-'");
+        refuse(item, item_path, spec, "a list of names of " + name_alphabet());
       } else if (std::find(value.begin(), end, value[i]) != end && !value[i].empty()) {
         problems_.push_back({item.where, fmt::format("'{}' stands twice", item.text), item_path});
       }

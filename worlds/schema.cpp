@@ -1,8 +1,8 @@
 #include "worlds/schema.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -15,7 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* name_pattern = "^[A-Za-z0-9_-]+$";
+static_assert(longest_name == 64, "the pattern tells it");
+constexpr const char* name_pattern = "^[A-Za-z0-9_][A-Za-z0-9_-]{0,63}$";
 
 /// Writes the schema of one map; each inner map has its own writer.
 class SchemaWriter : public Fields {
@@ -93,10 +94,9 @@ class SchemaWriter : public Fields {
 
   static Json number_type(const FieldSpec& spec, const char* type) {
     Json schema = {{"type", type}};
-    if (std::isfinite(spec.range.min)) {
-      schema[spec.range.excludes_min ? "exclusiveMinimum" : "minimum"] = spec.range.min;
-    }
-    if (std::isfinite(spec.range.max)) schema["maximum"] = spec.range.max;
+    schema[spec.range.excludes_min ? "exclusiveMinimum" : "minimum"] = spec.range.min;
+    schema["maximum"] = spec.range.max < beyond_integers ? Json(spec.range.max)
+                                                         : Json(std::numeric_limits<std::int64_t>::max());
     if (spec.range.multiple_of > 0) schema["multipleOf"] = spec.range.multiple_of;
     return schema;
   }

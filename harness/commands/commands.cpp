@@ -63,6 +63,12 @@ void open_folder(PreparedRun& run, const OutputArguments& output, const std::str
 int print_result(const RunResult& result, const std::filesystem::path& folder,
                  const OutputArguments& output) {
   if (!result.error.empty()) fmt::print(stderr, "{}\n", result.error);
+  if (result.bad_input) {
+    if (result.is_void) std::filesystem::remove_all(folder);
+    if (!result.is_void && !output.quiet)
+      fmt::print(stderr, "seifbed: {} holds the run up to there, marked as interrupted\n", folder.string());
+    return exit_code(result);
+  }
   return print_output(output, to_json(result.summary), scoreboard(result.summary), folder, exit_code(result));
 }
 

@@ -13,10 +13,10 @@
 #include "harness/comparison/baseline.hpp"
 #include "harness/comparison/parallel_runs.hpp"
 #include "harness/comparison/seeds.hpp"
-#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
+#include "harness/run/runnable_world.hpp"
 #include "harness/terminal/version.hpp"
 
 namespace harness {
@@ -50,7 +50,7 @@ DetailedRun run_seed(const CompareArguments& arguments, std::uint64_t seed, cons
   std::vector<std::string> overrides = arguments.choices.overrides;
   overrides.push_back(fmt::format("seed={}", seed));
   const worlds::LoadResult loaded =
-      worlds::load_world(arguments.inputs.front(), overrides, estimator_schemas(registry), program_version());
+      load_runnable_world(arguments.inputs.front(), overrides, registry, program_version());
   if (!loaded.world) throw BadInput(worlds::to_string(loaded.problems.front()));
   const worlds::World& world = *loaded.world;
   return execute_in(
@@ -65,11 +65,9 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
     throw BadInput("--estimators is for logs; for a world: --set 'estimators={ekf: {}, seif: {}}'");
   const std::vector<std::uint64_t> seeds =
       parse_seeds(arguments.seeds.empty() ? "1..20" : std::string_view(arguments.seeds));
-  const worlds::LoadResult loaded =
-      load_with_baseline(arguments.baseline, registry, arguments.choices.overrides, [&] {
-        return worlds::load_world(arguments.inputs.front(), arguments.choices.overrides,
-                                  estimator_schemas(registry));
-      });
+  const worlds::LoadResult loaded = load_with_baseline(
+      arguments.baseline, registry, arguments.choices.overrides,
+      [&] { return load_runnable_world(arguments.inputs.front(), arguments.choices.overrides, registry); });
   if (!loaded.world) {
     print_problems(loaded.problems);
     return std::nullopt;

@@ -21,7 +21,9 @@ struct ReplayArguments {
   OutputArguments output;
 };
 
-bool sets_noise(const std::string& assignment) { return assignment.starts_with("noise."); }
+bool sets_noise(const std::string& assignment) {
+  return assignment.starts_with("noise.") || assignment.starts_with("noise=");
+}
 
 int replay(const ReplayArguments& arguments, const seif::Registry& registry) {
   const TemporaryFolder spare;
@@ -70,8 +72,10 @@ void add_replay(CommandLine line) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option("--set", arguments->choices.overrides,
-                   "Set a value of estimators, scoring, film, seed or noise: path.to.key=value")
+      ->add_option(
+          "--set", arguments->choices.overrides,
+          "Set a value of estimators, scoring, film, seed or noise: path.to.key=value; a log's own noise is "
+          "replaced as a whole")
       ->allow_extra_args(false);
   command->add_option("--seed", arguments->choices.seed, "Seed of the estimators that draw")
       ->type_name("INT");

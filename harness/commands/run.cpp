@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "harness/commands/commands.hpp"
-#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/film/film.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/prepared_run.hpp"
 #include "harness/run/resume.hpp"
+#include "harness/run/runnable_world.hpp"
 #include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/version.hpp"
 
@@ -34,7 +34,7 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
   if (arguments.duration) overrides.push_back(fmt::format("duration_s={}", *arguments.duration));
   const worlds::LoadResult loaded =
-      worlds::load_world(arguments.world, overrides, estimator_schemas(registry), program_version());
+      load_runnable_world(arguments.world, overrides, registry, program_version());
   if (!loaded.world) {
     print_problems(loaded.problems);
     return 2;

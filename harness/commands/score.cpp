@@ -80,6 +80,8 @@ std::string without_truth(const std::filesystem::path& run) {
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
+  if (!summary.error.empty())
+    fmt::print(stderr, "seifbed: {} is of the part before this error: {}\n", folder.string(), summary.error);
   std::vector<std::string> names;
   for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
   summary.score = score_folder(folder, names, summary.rpe_interval);

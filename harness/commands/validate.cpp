@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/commands/commands.hpp"
-#include "harness/estimators/estimator_schemas.hpp"
+#include "harness/run/runnable_world.hpp"
 
 namespace harness {
 
@@ -13,10 +13,9 @@ namespace {
 
 int validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
              const seif::Registry& registry) {
-  const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
   int code = 0;
   for (const std::string& file : files) {
-    const worlds::LoadResult loaded = worlds::load_world(file, overrides, schemas);
+    const worlds::LoadResult loaded = load_runnable_world(file, overrides, registry);
     if (loaded.world) {
       fmt::print("{}: fine, {} landmarks\n", file, loaded.world->landmarks.size());
     } else {

@@ -1,5 +1,6 @@
 #include "harness/estimators/estimator_schemas.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -20,11 +21,11 @@ class DescribeOption {
     value_ = value;
   }
   void operator()(std::int64_t value) {
-    fields_.integer(spec_.key, value, worlds::between(spec_.min, spec_.max), spec_.help);
+    fields_.integer(spec_.key, value, range(), spec_.help);
     value_ = value;
   }
   void operator()(double value) {
-    fields_.number(spec_.key, value, worlds::between(spec_.min, spec_.max), spec_.help);
+    fields_.number(spec_.key, value, range(), spec_.help);
     value_ = value;
   }
   void operator()(std::string value) {
@@ -37,6 +38,12 @@ class DescribeOption {
   }
 
  private:
+  /// An option without a bound gets that of all numbers.
+  worlds::Range range() const {
+    return worlds::between(std::max(spec_.min, -worlds::largest_number),
+                           std::min(spec_.max, worlds::largest_number));
+  }
+
   worlds::Fields& fields_;
   const seif::OptionSpec& spec_;
   worlds::OptionValue& value_;

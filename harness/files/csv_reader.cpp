@@ -27,6 +27,7 @@ void CsvReader::read_header() {
   const std::string wanted = fmt::format("{}", fmt::join(all, ","));
   if (!rows_.next())
     throw BadInput(fmt::format("{}:1:1: is empty; the first line must be {}", rows_.path().string(), wanted));
+  check_line_end();
   const auto matches = [&](const std::vector<std::string>& names) {
     if (rows_.size() != names.size()) return false;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -51,11 +52,17 @@ bool CsvReader::next() {
   do {
     if (!rows_.next()) return false;
   } while (skips_comments_ && rows_.is_comment());
+  check_line_end();
   const std::size_t most = columns_.required.size() + (has_optional_ ? columns_.optional.size() : 0) +
                            (has_newer_ ? columns_.newer.size() : 0);
   if (rows_.size() > most)
     rows_.fail(most, fmt::format("the row has {} values, there are {} columns", rows_.size(), most));
   return true;
+}
+
+/// A file that was cut within its last number would give another number.
+void CsvReader::check_line_end() const {
+  if (!rows_.has_line_end()) rows_.fail(rows_.size(), "the last line has no line end: the file may be cut");
 }
 
 const std::string& CsvReader::name(int column) const {

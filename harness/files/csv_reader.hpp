@@ -18,7 +18,8 @@ struct Columns {
   std::vector<std::string> newer = {};
 };
 
-/// A table as a stream of rows, in constant memory. All functions throw BadInput.
+/// A table as a stream of rows, in constant memory. A file whose last line has no end is refused. All functions
+/// throw BadInput.
 class CsvReader {
  public:
   CsvReader(std::filesystem::path path, Columns columns);
@@ -40,6 +41,7 @@ class CsvReader {
  private:
   CsvReader(std::filesystem::path path, Columns columns, char separator);
   void read_header();
+  void check_line_end() const;
   const std::string& name(int column) const;
 
   RowReader rows_;

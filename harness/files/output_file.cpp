@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/files/input_file.hpp"
+
 namespace harness {
 
 namespace {
@@ -111,11 +113,10 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const int error = file.is_open() ? EIO : errno;
+  std::ifstream file = open_input(path);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file)
-    throw std::system_error(error, std::generic_category(), fmt::format("cannot read {}", path.string()));
+    throw std::system_error(EIO, std::generic_category(), fmt::format("cannot read {}", path.string()));
   return text;
 }
 

@@ -42,7 +42,7 @@ class OutputFile {
 /// Writes the whole text. Nobody ever finds a part of the file under its name, even after a power failure.
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
-/// Reads an existing file. Throws std::system_error.
+/// Reads an existing file, as open_input does. Throws BadInput or std::system_error.
 std::string read_whole_file(const std::filesystem::path& path);
 
 }  // namespace harness

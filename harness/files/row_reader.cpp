@@ -8,27 +8,29 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/files/input_file.hpp"
+
 namespace harness {
 
 namespace {
 
 constexpr std::size_t longest_line = 4096;  // [byte] far longer than any row of numbers
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin UTF-8 files with it
+
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
 
 RowReader::RowReader(std::filesystem::path path, char separator)
-    : path_(std::move(path)), separator_(separator), file_(path_) {
-  std::error_code error;
-  if (!file_ || !std::filesystem::is_regular_file(path_, error))
-    throw BadInput(fmt::format("{}: cannot be read", path_.string()));
+    : path_(std::move(path)), separator_(separator), file_(open_input(path_)) {
   line_.reserve(longest_line);
 }
 
 bool RowReader::read_line() {
   line_.clear();
   ++line_number_;
+  has_line_end_ = true;
   for (int c = file_.get(); c != std::ifstream::traits_type::eof(); c = file_.get()) {
     if (c == '\n') {
       if (!line_.empty() && line_.back() == '\r') line_.pop_back();
@@ -41,6 +43,7 @@ bool RowReader::read_line() {
   }
   if (file_.bad())
     throw BadInput(fmt::format("{}:{}:1: cannot be read further", path_.string(), line_number_));
+  has_line_end_ = false;
   return !line_.empty();
 }
 
@@ -64,6 +67,7 @@ void RowReader::split() {
 
 bool RowReader::next() {
   if (!read_line()) return false;
+  if (line_number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
   split();
   return true;
 }

@@ -28,6 +28,7 @@ class RowReader {
   const std::filesystem::path& path() const { return path_; }
   std::int64_t line_number() const { return line_number_; }
   std::string_view line() const { return line_; }
+  bool has_line_end() const { return has_line_end_; }  // false: the file ends within or right after the line
   bool is_comment() const { return line_.starts_with('#'); }
 
   std::size_t size() const { return cells_.size(); }  // number of cells
@@ -51,6 +52,7 @@ class RowReader {
   char separator_;
   std::ifstream file_;
   std::int64_t line_number_ = 0;
+  bool has_line_end_ = true;
   std::string line_;
   std::vector<Cell> cells_;
 };

@@ -88,7 +88,10 @@ LogNoise read_noise(const NoiseChoices& choices, const LogNoise& fallback) {
   worlds::read_fields(document, describe_all, problems);
   throw_if_any(problems);
   if (noise.sensor && !(noise.sensor->range_sd > 0.0 && noise.sensor->bearing_sd > 0.0))
-    throw BadInput("noise: this log has no noise of its own: range_sd_m and bearing_sd_rad must be set");
+    throw BadInput(
+        "noise: the noise of this log's sensor stands in its rows, or nowhere, and is replaced as a whole: "
+        "say "
+        "both, as in --set noise.range_sd_m=0.1 --set noise.bearing_sd_rad=0.02");
   return noise;
 }
 

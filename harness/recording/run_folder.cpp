@@ -12,6 +12,7 @@
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/fnv1a.hpp"
+#include "harness/files/input_file.hpp"
 
 namespace harness {
 
@@ -23,7 +24,7 @@ bool is_hashed(const std::string& name) {
 }
 
 void add_file(Fnv1a& hash, const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file = open_input(path);
   std::array<char, 1 << 16> block;
   while (file) {
     file.read(block.data(), block.size());

@@ -38,7 +38,7 @@ class TemporaryFolder {
 
 /// 16 hex digits over the names and bytes of what a run saw and estimated: truth.csv, odometry.csv,
 /// observations.csv, all *.tum and all *_map.csv, sorted by name (FNV-1a, 64 bits). A run and its repetition
-/// or replay have the same hash. Throws std::system_error if a file cannot be read.
+/// or replay have the same hash. Throws BadInput or std::system_error if a file cannot be read.
 std::string trajectory_hash(const std::filesystem::path& folder);
 
 }  // namespace harness

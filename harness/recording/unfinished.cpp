@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/files/output_file.hpp"
 
 namespace harness {
@@ -37,7 +38,8 @@ double reach_of(const fs::path& table, bool has_groups) {
   constexpr double nothing = -std::numeric_limits<double>::infinity();
   double last = nothing;
   double before_last = nothing;
-  std::ifstream file(table, std::ios::binary);
+  if (!fs::exists(table)) return nothing;
+  std::ifstream file = open_input(table);
   for (std::string line; next_whole_line(file, line);) {
     const std::optional<double> t = time_of(line);
     if (!t || *t == last) continue;
@@ -56,7 +58,7 @@ bool is_timed(const fs::path& file) {
 
 void copy_rows(const fs::path& table, const fs::path& to, double last_t) {
   OutputFile copy(to);
-  std::ifstream file(table, std::ios::binary);
+  std::ifstream file = open_input(table);
   for (std::string line; next_whole_line(file, line);) {
     const std::optional<double> t = time_of(line);
     if (t && *t > last_t) break;

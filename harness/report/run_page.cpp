@@ -49,7 +49,8 @@ std::vector<Fact> facts_of(const Summary& summary) {
                              {"Times real time", fmt::format("{:.1f}", summary.realtime_factor)},
                              {"Made by version", summary.version},
                              {"Trajectory hash", summary.trajectory_hash}};
-  if (summary.interrupted) facts.push_back({"Interrupted", "before its end"});
+  if (summary.interrupted)
+    facts.push_back({"Interrupted", summary.error.empty() ? "before its end" : summary.error});
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       facts.push_back({"Failed", summary.score.estimators[i].name + " " + summary.failures[i]});

@@ -159,6 +159,7 @@ std::vector<RebuiltScore> rebuild(const Rebuilding& rebuilding, const Summary& s
   if (rebuilding.interval) run.plan.scoring.interval = *rebuilding.interval;
   RebuiltConsistency rebuilt(*run.believers, *run.log, run.plan.scoring.landmark_sample);
   const RunResult result = execute(run, &rebuilt);
+  if (result.bad_input) throw BadInput(result.error);
   if (result.summary.interrupted) throw std::runtime_error("interrupted");
   if (!rebuilding.is_other && result.summary.trajectory_hash != summary.trajectory_hash)
     throw NotReplayed(fmt::format("{}: does not replay to the same estimates; it was made by version {}",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "harness/estimators/estimator_schemas.hpp"
@@ -27,12 +28,16 @@ std::optional<worlds::Node> read_settings(const std::filesystem::path& log, cons
 }
 
 void check_override(const std::string& assignment) {
-  for (const char* settable : {"estimators.", "scoring.", "film.", "seed="}) {
-    if (assignment.starts_with(settable)) return;
+  const std::string_view path = std::string_view(assignment).substr(0, assignment.find('='));
+  const std::string_view section = path.substr(0, path.find('.'));
+  for (const char* settable : {"estimators", "scoring", "film", "seed"}) {
+    if (section == settable) return;
   }
-  throw BadInput(fmt::format(
-      "--set {}: a replay can set estimators, scoring, film, seed and noise; the rest is recorded",
-      assignment));
+  throw BadInput(
+      fmt::format("--set {}: a replay can set estimators, scoring, film, seed and noise, as in "
+                  "scoring.interval_s=2; the rest "
+                  "is recorded",
+                  assignment));
 }
 
 /// Keeps the estimators that were asked for, in the order of the file. Adds a registered type that the file

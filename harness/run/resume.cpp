@@ -9,12 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/unfinished.hpp"
 #include "harness/run/prepared_run.hpp"
-#include "worlds/load.hpp"
+#include "harness/run/runnable_world.hpp"
 
 namespace harness {
 
@@ -83,7 +82,7 @@ bool is_incomplete(const fs::path& run) {
 }
 
 RunResult resume(const fs::path& run, const seif::Registry& registry, bool quiet) {
-  const worlds::LoadResult loaded = worlds::load_world(run / "world.yaml", {}, estimator_schemas(registry));
+  const worlds::LoadResult loaded = load_runnable_world(run / "world.yaml", {}, registry);
   if (!loaded.world) throw BadInput(worlds::to_string(loaded.problems.front()));
   const Workshop workshop(run / ".resumed");
   PreparedRun again = prepare_run(*loaded.world, registry);

@@ -73,6 +73,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   loop.finish();
   recorder.close();
+  result.is_void = result.bad_input && loop.counts().updates == 0;
 
   Summary& summary = result.summary;
   summary.world = plan.name;
@@ -81,6 +82,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.duration = loop.counts().t - log.start_t;
   summary.updates = loop.counts().updates;
   summary.interrupted = loop.counts().interrupted;
+  summary.error = result.error;
   summary.trajectory_hash = trajectory_hash(plan.folder);
   summary.realtime_factor = summary.duration / elapsed;
   summary.rpe_interval = plan.scoring.rpe_interval;
@@ -89,7 +91,9 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.left_out_t = loop.screening().first_t();
   summary.score = score_folder(plan.folder, names, plan.scoring.rpe_interval);
   for (const LiveEstimator& estimator : believers.estimators) summary.failures.push_back(estimator.failure);
-  write_whole_file(plan.folder / "summary.json", to_json(summary));
+  Summary written = summary;
+  written.interrupted = summary.interrupted || result.bad_input;  // the folder holds a part of the log
+  write_whole_file(plan.folder / "summary.json", to_json(written));
   std::filesystem::remove(plan.folder / unfinished_mark);
   return result;
 }

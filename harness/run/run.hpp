@@ -21,9 +21,10 @@ struct RunPlan {
 };
 
 struct RunResult {
-  Summary summary;         // of what was run, even after an error
+  Summary summary;         // of what was run, even after an error; interrupted: by the user
   std::string error;       // why the run ended early; empty: it did not
-  bool bad_input = false;  // the error is in an input file
+  bool bad_input = false;  // the error is in an input file; what came before it was run
+  bool is_void = false;    // the input file was refused before its first scan
 };
 
 /// Runs the estimators on the stream, records, scores, and writes summary.json. SIGINT and SIGTERM end the

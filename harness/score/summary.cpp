@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/files/input_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
 
@@ -102,6 +103,8 @@ Summary parse_summary(std::istream& text) {
   summary.duration = json.at("duration_s");
   summary.updates = json.at("updates");
   summary.interrupted = json.at("interrupted");
+  const Json error = json.value("error", Json(nullptr));
+  if (error.is_string()) summary.error = error.get<std::string>();
   summary.trajectory_hash = json.at("trajectory_hash");
   summary.realtime_factor = json.at("realtime_factor");
   summary.rpe_interval = json.at("rpe_interval_s");
@@ -121,15 +124,16 @@ Summary parse_summary(std::istream& text) {
 }  // namespace
 
 Summary read_summary(const std::filesystem::path& file) {
-  std::ifstream text(file);
-  if (!text && is_unfinished(file.parent_path()))
+  const bool is_there = std::filesystem::exists(file);
+  if (!is_there && is_unfinished(file.parent_path()))
     throw BadInput(
         fmt::format("{0}: was cut off before its end; seifbed run --resume {0} completes it, and "
                     "seifbed replay {0} makes a run of what there is",
                     file.parent_path().string()));
-  if (!text)
+  if (!is_there)
     throw BadInput(fmt::format("{}: cannot be read; a run writes it when it ends, and so does a replay of it",
                                file.string()));
+  std::ifstream text = open_input(file);
   try {
     return parse_summary(text);
   } catch (const Json::exception& error) {
@@ -147,6 +151,7 @@ std::string to_json(const Summary& summary) {
   json["duration_s"] = number(summary.duration);
   json["updates"] = summary.updates;
   json["interrupted"] = summary.interrupted;
+  if (!summary.error.empty()) json["error"] = summary.error;
   json["trajectory_hash"] = summary.trajectory_hash;
   json["realtime_factor"] = number(summary.realtime_factor);
   json["rpe_interval_s"] = number(summary.rpe_interval);

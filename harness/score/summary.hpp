@@ -19,6 +19,7 @@ struct Summary {
   double duration = 0.0;     // [s] from the start to the last event
   std::int64_t updates = 0;  // [-] scans
   bool interrupted = false;
+  std::string error;  // why the run ended before its stream did; empty: it did not, or someone stopped it
   std::string trajectory_hash;
   double realtime_factor = 0.0;                                  // [-] simulated time over real time
   double rpe_interval = 0.0;                                     // [s]

@@ -81,6 +81,18 @@ void make_symmetric(Matrix& covariance) {
 
 }  // namespace
 
+LogDescription description_without_truth(const worlds::World& world) {
+  const worlds::LandmarkSensor& sensor = world.landmark_sensor;
+  LogDescription log;
+  log.name = world.name;
+  log.T_robot_sensor = pose_of(sensor.mount);
+  log.noise = {sensor.range_sd, sensor.range_sd_per_m, sensor.bearing_sd};
+  log.max_range = sensor.max_range;
+  log.start = draw_start(world);
+  log.known_association = sensor.ids == worlds::LandmarkIds::known;
+  return log;
+}
+
 SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steering_pose)
     : SimulatedStream(world, std::move(steering_pose), sim::make_simulator(world)) {}
 
@@ -108,15 +120,9 @@ SimulatedStream::SimulatedStream(const worlds::World& world, SteeringPose steeri
 
 LogDescription SimulatedStream::describe() const {
   const worlds::LandmarkSensor& sensor = world_.landmark_sensor;
-  LogDescription log;
-  log.name = world_.name;
-  log.T_robot_sensor = pose_of(sensor.mount);
-  log.noise = {sensor.range_sd, sensor.range_sd_per_m, sensor.bearing_sd};
-  log.max_range = sensor.max_range;
-  log.start = draw_start(world_);
+  LogDescription log = description_without_truth(world_);
   log.has_truth = true;
   log.has_wheel_angles = true;
-  log.known_association = sensor.ids == worlds::LandmarkIds::known;
   log.has_true_ids =
       !log.known_association || sensor.false_detections > 0.0 || sensor.misread_probability > 0.0;
   log.true_start = truth();

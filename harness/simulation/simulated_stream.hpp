@@ -22,6 +22,10 @@ namespace harness {
 /// steers.
 using SteeringPose = std::function<seif::Pose2()>;
 
+/// What the estimators of a world are told before its first event. The true start and the true landmarks are
+/// not part of it.
+LogDescription description_without_truth(const worlds::World& world);
+
 /// Each source of randomness has its own random stream: "encoders", "encoder_systematic", "landmark_sensor",
 /// "start_estimate", "drive".
 class SimulatedStream final : public Stream {

@@ -17,6 +17,8 @@ namespace {
 constexpr std::int64_t largest_id = std::numeric_limits<seif::LandmarkId>::max() - 1;
 constexpr std::size_t largest_scan = 10'000;  // [-] observations; a larger "scan" comes from a broken clock
 
+constexpr double longest_rest = 1.0;  // [s] a scan this long after the last odometry is no chance
+
 // Columns of observations.csv.
 constexpr int landmark_column = 1;
 constexpr int range_column = 2;
@@ -159,6 +161,7 @@ bool LogStream::scan_is_due() const {
 bool LogStream::next(Event& event) {
   if (!odometry_left_ && !observation_left_) return false;
   if (scan_is_due()) {
+    if (!odometry_left_ && observation_t_ - odometry_.t > longest_rest) ++counts_.scans_after_odometry;
     fill(memory_.scan(event));
     return true;
   }

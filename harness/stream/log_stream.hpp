@@ -43,6 +43,8 @@ class LogStream final : public RecordedLog {
 
   bool next(Event& event) override;
 
+  ReadCounts counts() const override { return counts_; }
+
  private:
   bool scan_is_due() const;
   void read_odometry_row();
@@ -63,6 +65,7 @@ class LogStream final : public RecordedLog {
   double observation_t_ = 0.0;  // [s] from the last row that was read
   std::optional<TruePose> last_truth_;
   ScanMemory memory_;
+  ReadCounts counts_;
 };
 
 /// Reads landmarks.csv, sorted by id. Throws BadInput.

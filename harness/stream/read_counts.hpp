@@ -18,7 +18,9 @@ struct ReadCounts {
   std::int64_t backwards = 0;         // rows with an earlier time than the row above: left out
   std::int64_t without_odometry = 0;  // observations before the first or after the last odometry: left out
   std::int64_t odometry_gaps = 0;     // gaps above the reader's limit: the last command continues
-  std::int64_t truth_gaps = 0;        // gaps above the reader's limit: the truth is not known in them
+  std::int64_t scans_after_odometry =
+      0;                        // scans more than 1 s after the last odometry: taken, without motion
+  std::int64_t truth_gaps = 0;  // gaps above the reader's limit: the truth is not known in them
 };
 
 /// The counts that are not zero, with their names in the scores.

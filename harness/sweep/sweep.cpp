@@ -8,11 +8,11 @@
 
 #include "harness/comparison/baseline.hpp"
 #include "harness/comparison/seeds.hpp"
-#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/detailed_run.hpp"
 #include "harness/run/prepared_run.hpp"
+#include "harness/run/runnable_world.hpp"
 #include "harness/sweep/processes.hpp"
 #include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/progress.hpp"
@@ -42,10 +42,10 @@ std::string world_as_written(const std::filesystem::path& file, const std::vecto
 
 /// Loads the world of each setting. A problem with a varied value is reported for its --vary.
 std::vector<worlds::Problem> check_settings(const std::filesystem::path& world, const SweepPlan& plan,
-                                            const worlds::EstimatorSchemas& schemas) {
+                                            const seif::Registry& registry) {
   for (std::size_t setting = 0; setting < setting_count(plan); ++setting) {
     const std::vector<std::string> overrides = overrides_of(plan, {setting, plan.seeds.front()});
-    worlds::LoadResult loaded = worlds::load_world(world, overrides, schemas);
+    worlds::LoadResult loaded = load_runnable_world(world, overrides, registry);
     for (worlds::Problem& problem : loaded.problems) {
       std::string source = *problem.where.source;
       if (source.starts_with("--set ")) source.replace(0, 5, "--vary");
@@ -62,8 +62,8 @@ std::vector<worlds::Problem> check_settings(const std::filesystem::path& world, 
 
 std::string execute_cell(const SweepFolder& sweep, std::size_t index, const seif::Registry& registry,
                          DetailedRun& done) {
-  const worlds::LoadResult loaded = worlds::load_world(
-      sweep.world(), overrides_of(sweep.plan, cell_at(sweep.plan, index)), estimator_schemas(registry));
+  const worlds::LoadResult loaded =
+      load_runnable_world(sweep.world(), overrides_of(sweep.plan, cell_at(sweep.plan, index)), registry);
   if (!loaded.world) return worlds::to_string(loaded.problems.front());
   PreparedRun run = prepare_run(*loaded.world, registry);
   const TemporaryFolder folder;
@@ -117,7 +117,6 @@ Shard parse_shard(std::string_view text) {
 
 BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path& out,
                        const seif::Registry& registry) {
-  const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
   SweepPlan plan;
   plan.version = program_version();
   plan.seeds = parse_seeds(choices.seeds);
@@ -125,7 +124,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
   check_plan(plan);
   std::vector<std::string> overrides = choices.overrides;
   const worlds::LoadResult loaded = load_with_baseline(choices.baseline, registry, overrides, [&] {
-    return worlds::load_world(choices.world, overrides, schemas);
+    return load_runnable_world(choices.world, overrides, registry);
   });
   if (!loaded.world) return {std::nullopt, loaded.problems};
   const worlds::World& world = *loaded.world;
@@ -134,7 +133,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
   const TemporaryFolder staged;
   write_world(staged.path(), world, world_as_written(choices.world, overrides, world.name));
   BegunSweep begun;
-  begun.problems = check_settings(staged / "world.yaml", plan, schemas);
+  begun.problems = check_settings(staged / "world.yaml", plan, registry);
   if (!begun.problems.empty()) return begun;
   begun.folder = begin_sweep(out, plan, [&](const std::filesystem::path& to) {
     copy_world({staged.path(), plan}, to);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "worlds/geometry.hpp"
+#include "worlds/limits.hpp"
 #include "worlds/path.hpp"
 
 namespace worlds {
@@ -207,6 +208,24 @@ TEST(Generate, TakesTimeInProportionToTheLandmarks) {
   // Ten times the landmarks are ten times the work; a pass over all landmarks for each one would be a hundred
   // times. The factor of 40 allows for slower caches and noise.
   EXPECT_LT(large, 40 * small + 0.1);
+}
+
+TEST(Generate, GivesUpAfterManyTriesInAllAlthoughOneInAThousandFindsAPlace) {
+  World world;
+  world.ground_size = {60, 60};
+  Generator generator;
+  generator.pattern = Pattern::ring;
+  generator.count = 1000;
+  generator.radius = 0.001;
+  generator.jitter = 1000;
+  generator.max_tries = 1'000'000;
+  std::mt19937_64 random(1);
+  set_limits({.fruitless_tries = 20'000});
+  const Placed placed = generate(generator, world, random);
+  set_limits({});
+  EXPECT_EQ(placed.wanted, 1000);
+  EXPECT_GT(placed.placed, 40);
+  EXPECT_LT(placed.placed, 160) << "90,000 tries in all";
 }
 
 }  // namespace

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "worlds/path.hpp"
+#include "worlds/shape_tree.hpp"
 
 namespace worlds {
 namespace {
@@ -102,6 +107,68 @@ TEST(Serpentine, CoversTheRectangleInLanesNoFurtherApartThanAsked) {
   }
   EXPECT_EQ(serpentine(min, max, 0.7).size(),
             22U);  // ten gaps, although 7 / 0.7 is more than 10 in floating point
+}
+
+/// Random rectangles, long and short ones, and how far each of them is felt.
+std::vector<Rectangle> random_rectangles(std::mt19937& random, std::vector<double>& reaches) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Rectangle> shapes;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = 7 * unit(random);
+    const Vector2d half(std::pow(unit(random), 4) * 20, unit(random) * 0.5);
+    shapes.push_back({{40 * unit(random), 40 * unit(random)}, {std::cos(angle), std::sin(angle)}, half});
+    reaches.push_back(std::pow(unit(random), 3) * 4);
+  }
+  return shapes;
+}
+
+TEST(ShapeTree, FindsWhatASearchThroughAllFinds) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-5, 45);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<double> reaches;
+    const std::vector<Rectangle> shapes = random_rectangles(random, reaches);
+    const ShapeTree tree(shapes, reaches);
+    for (int query = 0; query < 50; ++query) {
+      const Segment segment{{place(random), place(random)}, {place(random), place(random)}};
+      const double reach = query % 5;
+      std::set<std::size_t> near_point, near_segment, found_by_point, found_by_segment;
+      for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (distance(segment.from, shapes[i]) <= reach + reaches[i]) near_point.insert(i);
+        if (distance(segment, shapes[i]) <= reach + reaches[i]) near_segment.insert(i);
+      }
+      const auto gather = [&](std::set<std::size_t>& found, const auto& from) {
+        tree.any_near(from, reach, [&](std::size_t i, const Rectangle& shape) {
+          if (distance(from, shape) <= reach + reaches[i]) found.insert(i);
+          return false;
+        });
+      };
+      gather(found_by_point, segment.from);
+      gather(found_by_segment, segment);
+      ASSERT_EQ(found_by_point, near_point);
+      ASSERT_EQ(found_by_segment, near_segment);
+    }
+  }
+  EXPECT_FALSE(ShapeTree({}).any_near(Vector2d(0, 0), 9, [](std::size_t, const Rectangle&) { return true; }));
+}
+
+TEST(ShapeTree, LooksAtFewOfAHundredThousandShortLegs) {
+  constexpr int legs_of_path = 100'000;
+  constexpr double step = 1e-3;  // [m]
+  std::vector<Rectangle> path;
+  for (int i = 0; i < legs_of_path; ++i)
+    path.push_back(rectangle(Segment{{step * i, 0}, {step * (i + 1), 0}}, 0));
+  const ShapeTree tree(std::move(path), std::vector<double>(legs_of_path, step));
+  std::int64_t looks = 0;
+  for (int i = 0; i < legs_of_path; ++i) {
+    const bool is_near =
+        tree.any_near(Vector2d(step * i, 1.5 * step), 0.0, [&](std::size_t, const Rectangle& leg) {
+          ++looks;
+          return distance(Vector2d(step * i, 1.5 * step), leg) < step;
+        });
+    ASSERT_FALSE(is_near);
+  }
+  EXPECT_LT(looks, 20 * std::int64_t{legs_of_path});
 }
 
 TEST(DrivenPath, FollowsCommandsAsAUnicycleDoes) {

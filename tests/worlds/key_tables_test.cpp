@@ -50,7 +50,7 @@ TEST(KeyTables, TellDefaultsLimitsUnitsAndWhichKindAKeyBelongsTo) {
   const std::string tables = key_tables(one_estimator());
   const auto has = [&](const std::string& text) { return tables.find(text) != std::string::npos; };
   EXPECT_TRUE(has("| `duration_s` | number > 0 and ≤ 1000000 | `60` | length of the run [s] |"));
-  EXPECT_TRUE(has("| `lane_m` | number > 0 | `2` |"));
+  EXPECT_TRUE(has("| `lane_m` | number > 0 and ≤ 100000 | `2` |"));
   EXPECT_TRUE(has("(only with `mode: serpentine`)"));
   EXPECT_TRUE(has("| `file` | text | *required* |"));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "world_files.hpp"
+#include "worlds/limits.hpp"
 
 namespace worlds {
 namespace {
@@ -62,7 +63,7 @@ TEST(LoadWorld, ReportsProblemsOfAllKindsAtOnceInTheirOrder) {
             "3:10: the robot, which reaches 0.315 m around its axle, starts off the ground\n"
             "6:7: the landmark is inside of obstacles.walls.0\n"
             "10:23: the rate must divide physics.step_rate_hz, which is 240 Hz; 7 Hz does not\n"
-            "11:33: 'range_sd_m' must be more than 0 m, not '-0.1'\n"
+            "11:33: 'range_sd_m' must be at least 1e-06 and at most 1000 m, not '-0.1'\n"
             "12:20: 'pose_from' must be truth, odometry or one of the estimators, not 'truht' (did you mean "
             "'truth'?)\n");
 }
@@ -305,7 +306,8 @@ TEST(LoadWorld, TakesTheLargestAndTheSmallestNumbersWithoutHarm) {
 
 TEST(LoadWorld, NamesOverridesInTheirProblems) {
   EXPECT_EQ(problems_of("{}", {"sensors.landmark_sensor.range_sd_m=-1"}),
-            "--set sensors.landmark_sensor.range_sd_m=-1: 'range_sd_m' must be more than 0 m, not '-1'\n");
+            "--set sensors.landmark_sensor.range_sd_m=-1: 'range_sd_m' must be at least 1e-06 and at most "
+            "1000 m, not '-1'\n");
   EXPECT_EQ(problems_of("{}", {"robot.mas_kg=3"}),
             "--set robot.mas_kg=3: unknown key 'mas_kg' (did you mean 'mass_kg'?)\n");
   EXPECT_EQ(problems_of("seed: 1\n", {"seed=2", "duration_s=\"5\""}),
@@ -349,6 +351,24 @@ TEST(LoadWorld, AnEstimatorMayBeCalledNull) {
   const LoadResult again = load_text(folder, first.resolved);
   ASSERT_TRUE(again.world) << test::text_of(again.problems) << first.resolved;
   EXPECT_EQ(again.world->estimators.back().name, "NULL");
+}
+
+TEST(LoadWorld, RefusesAWorldThatItsRunCouldNotReadAgain) {
+  const Folder folder;
+  std::string walls = "obstacles:\n  walls:\n";
+  for (int i = 0; i < 100; ++i)
+    walls += "    - {points_m: [[" + std::to_string(i + 2) + ", 5], [" + std::to_string(i + 2) + ", 9]]}\n";
+  const std::string ground = "ground: {size_m: [300, 300]}\n";
+  set_limits({.bytes = 12'000});
+  const LoadResult small = load_text(folder, ground);
+  const LoadResult large = load_text(folder, ground + walls);
+  set_limits({});
+  EXPECT_TRUE(small.world) << text_of(small.problems);
+  EXPECT_FALSE(large.world);
+  EXPECT_EQ(large.resolved, "");
+  EXPECT_NE(text_of(large.problems).find("with all defaults written out, as a run's folder holds it, this"),
+            std::string::npos)
+      << text_of(large.problems);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "harness/command_call.hpp"
@@ -146,6 +147,7 @@ TEST(CommandLine, AReplayRefusesWhatItCannotSet) {
   call(folder, "run world.yaml --quiet --out run");
   for (const auto& [arguments, complaint] : {
            std::pair{"--set physics.engine=kinematic", "--set physics.engine=kinematic: a replay can set "},
+           std::pair{"--set scoring=4", "'scoring' must be a map, not '4'"},
            std::pair{"--estimators walnut", "--estimators: there is no estimator 'walnut'"},
            std::pair{"--set estimators.ekf.gate=walnut", "'gate' must be a number, not 'walnut'"},
        }) {
@@ -155,6 +157,65 @@ TEST(CommandLine, AReplayRefusesWhatItCannotSet) {
       EXPECT_NE(called.errors.find(complaint), std::string::npos) << called.errors;
     }
   }
+}
+
+TEST(CommandLine, AReplaySetsWholeSectionsAndNoise) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  call(folder, "run world.yaml --quiet --out run");
+  int number = 0;
+  for (const char* set : {"'estimators={ekf: {}, seif: {}}'", "'scoring={interval_s: 2}'",
+                          "'film={speed: 2}'", "'noise={range_sd_m: 0.1, bearing_sd_rad: 0.02}'"}) {
+    const std::string out = " --out again" + std::to_string(++number);
+    const Called called = call(folder, std::string("replay run --quiet --set ") + set + out);
+    EXPECT_EQ(called.exit_code, 0) << called.errors;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "again1" / "seif_map.csv"));
+  const Called half = call(folder, "replay run --quiet --set noise.range_sd_m=0.1");
+  EXPECT_EQ(half.exit_code, 2);
+  EXPECT_NE(half.errors.find("--set noise.range_sd_m=0.1 --set noise.bearing_sd_rad="), std::string::npos);
+}
+
+/// Replaces a line of a file.
+void spoil_line(const std::filesystem::path& file, int number) {
+  std::istringstream lines(read_file(file));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) text += (--number == 0 ? "garbage" : line) + '\n';
+  test::write_file(file, text);
+}
+
+TEST(CommandLine, ALogThatIsRefusedInItsMiddleLeavesAFolderThatSaysSo) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  ASSERT_EQ(call(folder, "run world.yaml --quiet --out run").exit_code, 0);
+  spoil_line(folder / "run" / "odometry.csv", 30);
+  const Called replay = call(folder, "replay run --out part");
+  EXPECT_EQ(replay.exit_code, 2);
+  EXPECT_EQ(replay.output, "") << "no scoreboard";
+  const std::string error = "run/odometry.csv:30:1: t: 'garbage' is not a number";
+  EXPECT_TRUE(replay.errors.starts_with(error + "\n")) << replay.errors;
+  const auto summary = nlohmann::json::parse(read_file(folder / "part" / "summary.json"));
+  EXPECT_EQ(summary["interrupted"], true);
+  EXPECT_EQ(summary["error"], error);
+  const Called score = call(folder, "score part");
+  EXPECT_EQ(score.exit_code, 0);
+  EXPECT_NE(score.errors.find(error), std::string::npos) << score.errors;
+  const Called whole = call(folder, "score run");
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_NE(whole.errors.find("no NIS and no NEES from the robot: " + error), std::string::npos)
+      << whole.errors;
+}
+
+TEST(CommandLine, ALogThatIsRefusedBeforeItsFirstScanLeavesNothing) {
+  const TemporaryFolder folder;
+  write_world(folder);
+  ASSERT_EQ(call(folder, "run world.yaml --quiet --out run").exit_code, 0);
+  spoil_line(folder / "run" / "odometry.csv", 3);
+  const Called replay = call(folder, "replay run --out part");
+  EXPECT_EQ(replay.exit_code, 2);
+  EXPECT_EQ(replay.output, "");
+  EXPECT_EQ(replay.errors, "run/odometry.csv:3:1: t: 'garbage' is not a number\n");
+  EXPECT_FALSE(std::filesystem::exists(folder / "part"));
 }
 
 TEST(CommandLine, OnATerminalARunSaysHowFarItIsAndWipesThatAway) {

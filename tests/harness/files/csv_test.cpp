@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
@@ -13,7 +14,9 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"
 #include "harness/files/csv_writer.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/fixtures.hpp"
+#include "harness/score/summary.hpp"
 
 namespace harness {
 namespace {
@@ -47,15 +50,33 @@ TEST(Csv, NumbersComeBackBitForBit) {
   EXPECT_FALSE(reader.next());
 }
 
-TEST(Csv, ReadsWindowsLineEndsAndALastLineWithoutEnd) {
+TEST(Csv, ReadsWindowsLineEndsAndAByteOrderMark) {
   const TemporaryFolder folder;
-  write_file(folder / "a.csv", "a, b\r\n1, 2\r\n3,4");
+  write_file(folder / "a.csv",
+             "\xEF\xBB\xBF"
+             "a, b\r\n1, 2\r\n3,4\r\n");
   CsvReader reader(folder / "a.csv", {{"a", "b"}, {}});
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(reader.number(1), 2.0);
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(reader.number(1), 4.0);
   EXPECT_FALSE(reader.next());
+}
+
+TEST(Csv, ALastLineWithoutEndIsRefusedSinceTheFileMayBeCut) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.csv", "a,b\n1,2\n3,4e-0");
+  CsvReader reader(folder / "a.csv", {{"a", "b"}, {}});
+  ASSERT_TRUE(reader.next());
+  try {
+    reader.next();
+    FAIL() << "it was taken";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(error.what(),
+              (folder / "a.csv").string() + ":3:7: the last line has no line end: the file may be cut");
+  }
+  write_file(folder / "head.csv", "a,b");
+  EXPECT_THROW(CsvReader(folder / "head.csv", {{"a", "b"}, {}}), BadInput);
 }
 
 TEST(Csv, ColumnsOfNewerVersionsMayBeMissing) {
@@ -83,6 +104,18 @@ TEST(Csv, ALineWithoutEndUsesNoMemory) {
   write_file(folder / "a.csv", "a\n" + std::string(1 << 20, '1'));
   CsvReader reader(folder / "a.csv", {{"a"}, {}});
   EXPECT_THROW(reader.next(), BadInput);
+}
+
+TEST(Csv, WhatIsNoRegularFileIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "zeros");
+  std::filesystem::create_directory(folder / "folder");
+  for (const char* name : {"pipe", "zeros", "folder", "nothing"}) {
+    EXPECT_THROW(CsvReader(folder / name, {{"a"}, {}}), BadInput) << name;
+    EXPECT_THROW(read_whole_file(folder / name), BadInput) << name;
+    EXPECT_THROW(read_summary(folder / name), BadInput) << name;
+  }
 }
 
 TEST(Csv, NeverWritesOverAFile) {

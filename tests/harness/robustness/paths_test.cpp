@@ -56,6 +56,21 @@ TEST(Paths, AWorldThatExtendsWhatIsNoWorldIsRefused) {
   EXPECT_EQ(run.errors.find("root"), std::string::npos) << "what stands in that file is nobody's business";
 }
 
+TEST(Paths, NoMessageQuotesAFileThatIsNoWorld) {
+  const TemporaryFolder folder;
+  test::write_file(folder / "shadow", "root:secret:19000:7:::\nmail:secret:19000:7:::\n");
+  fs::create_symlink("shadow", folder / "link.yaml");
+  test::write_file(folder / "plain.yaml", "root:secret:19000:7\nmail:secret:19000:7\n");
+  for (const char* text : {"extends: shadow", "extends: link.yaml", "extends: plain.yaml",
+                           "drive: {mode: commands, file: shadow}"}) {
+    test::write_file(folder / "world.yaml", std::string(text) + "\n");
+    const Called run = call(folder, "validate world.yaml");
+    EXPECT_EQ(run.exit_code, 2) << text;
+    EXPECT_FALSE(run.errors.empty()) << text;
+    EXPECT_EQ(run.errors.find("secret"), std::string::npos) << run.errors;
+  }
+}
+
 TEST(Paths, NothingInANameIsExecuted) {
   const TemporaryFolder folder;
   const std::string name = "$(touch a)`touch b`;touch c;'touch d'&|.yaml";

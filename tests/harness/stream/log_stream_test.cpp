@@ -44,6 +44,20 @@ std::vector<Event> read_all(LogStream& stream) {
 const ScanEvent& scan(const Event& event) { return std::get<ScanEvent>(event); }
 const OdometryEvent& odometry(const Event& event) { return std::get<OdometryEvent>(event); }
 
+TEST(LogStream, TellsOfScansLongAfterTheOdometry) {
+  const TemporaryFolder folder;
+  write_log(folder);
+  write_file(folder / "observations.csv",
+             std::string(observations_head) + "0.7,3,2.5,0.1\n2.4,3,2,0\n2.6,3,2,0\n3,3,2,0\n");
+  LogStream stream(folder.path());
+  EXPECT_EQ(read_all(stream).size(), 7U);
+  EXPECT_EQ(stream.counts().scans_after_odometry, 2) << "the last odometry is at 1.5 s";
+  write_file(folder / "odometry.csv", odometry_head);
+  LogStream without(folder.path());
+  EXPECT_EQ(read_all(without).size(), 4U);
+  EXPECT_EQ(without.counts().scans_after_odometry, 3) << "the start is at 0 s";
+}
+
 TEST(LogStream, MergesOdometryAndScansWithOdometryFirst) {
   const TemporaryFolder folder;
   write_log(folder);
