@@ -12,6 +12,7 @@
 #include "worlds/geometry.hpp"
 #include "worlds/point_grid.hpp"
 #include "worlds/shape_grid.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {

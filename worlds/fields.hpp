@@ -134,8 +134,4 @@ bool read_fields(Node& document, const std::function<void(Fields&)>& describe,
 /// The unit that the end of a key tells, as in "m/s"; empty if the key tells no unit.
 std::string_view unit_of_key(std::string_view key);
 
-/// " (did you mean 'x'?)" with the choice that is most similar to what was written; empty if no choice is
-/// similar.
-std::string suggestion(std::string_view written, const std::vector<std::string>& choices);
-
 }  // namespace worlds

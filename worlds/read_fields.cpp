@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "worlds/fields.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {
@@ -49,7 +51,8 @@ std::string describe_range(const Range& range, std::string_view unit) {
     return fmt::format("a multiple of {}, {}", range.multiple_of, describe_range(bounds, unit));
   }
   if (!std::isfinite(range.min)) return fmt::format("at most {}{}{}", range.max, space, unit);
-  if (!std::isfinite(range.max)) return fmt::format("{} {}{}{}", least, range.min, space, unit);
+  constexpr auto limit_of_type = static_cast<double>(std::numeric_limits<std::int64_t>::max());
+  if (!(range.max < limit_of_type)) return fmt::format("{} {}{}{}", least, range.min, space, unit);
   return fmt::format("{} {} and at most {}{}{}", least, range.min, range.max, space, unit);
 }
 
@@ -312,7 +315,10 @@ class Reader : public Fields {
     std::int64_t value = 0;
     const char* const end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
-    if (error == std::errc::result_out_of_range) return refuse(node, path, spec, "smaller");
+    if (error == std::errc::result_out_of_range && node.text.front() != '-') {
+      return refuse(node, path, spec, fmt::format("at most {}", std::numeric_limits<std::int64_t>::max()));
+    }
+    if (error == std::errc::result_out_of_range) return refuse(node, path, spec, "larger");
     if (error != std::errc() || stop != end) return refuse(node, path, spec, "a whole number");
     if (!contains(spec.range, static_cast<double>(value))) {
       return refuse(node, path, spec, describe_range(spec.range, unit(spec.key)));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -96,7 +97,12 @@ class SchemaWriter : public Fields {
     if (std::isfinite(spec.range.min)) {
       schema[spec.range.excludes_min ? "exclusiveMinimum" : "minimum"] = spec.range.min;
     }
-    if (std::isfinite(spec.range.max)) schema["maximum"] = spec.range.max;
+    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    if (spec.range.max >= static_cast<double>(largest) && std::string_view(type) == "integer") {
+      schema["maximum"] = largest;
+    } else if (std::isfinite(spec.range.max)) {
+      schema["maximum"] = spec.range.max;
+    }
     if (spec.range.multiple_of > 0) schema["multipleOf"] = spec.range.multiple_of;
     return schema;
   }
