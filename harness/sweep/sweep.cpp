@@ -123,6 +123,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
   plan.seeds = parse_seeds(choices.seeds);
   for (const std::string& axis : choices.axes) plan.axes.push_back(parse_axis(axis));
   check_plan(plan);
+  check_overrides(plan, choices.overrides);
   std::vector<std::string> overrides = choices.overrides;
   const worlds::LoadResult loaded = load_with_baseline(choices.baseline, registry, overrides, [&] {
     return worlds::load_world(choices.world, overrides, schemas);

@@ -24,6 +24,16 @@ TEST(SweepAxis, CommasInsideBracketsAndQuotesSeparateNothing) {
   EXPECT_EQ(axis.values, (Texts{"{ekf: {}, seif: {}}", "{seif: {K: 3}}", "[1,2]", "'a,b'", "6"}));
 }
 
+TEST(SweepAxis, ValuesAreSplitAsYamlReadsThem) {
+  EXPECT_EQ(parse_axis("a.b={'x, y': 1}, {\"}\": [2, 'it''s, so']}").values,
+            (Texts{"{'x, y': 1}", "{\"}\": [2, 'it''s, so']}"}));
+  EXPECT_EQ(parse_axis(R"(a="x\", y",z)").values, (Texts{R"("x\", y")", "z"}));
+  EXPECT_EQ(parse_axis("a=don't, can't").values, (Texts{"don't", "can't"})) << "no quotes, but letters";
+  EXPECT_EQ(parse_axis("a=x],y").values, (Texts{"x]", "y"}));
+  for (const char* open : {"a='x", "a=[1,2", "a={b: 1", "a=\"x\\\""})
+    EXPECT_THROW(parse_axis(open), BadInput) << open;
+}
+
 TEST(ShortPaths, AreTheLastKeysWhereThoseDiffer) {
   EXPECT_EQ(short_paths(example_plan()), (Texts{"b", "c"}));
   SweepPlan plan = example_plan();
