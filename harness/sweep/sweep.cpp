@@ -147,6 +147,7 @@ bool run_cells(const SweepFolder& sweep, const Shard& shard, int jobs, bool quie
                const seif::Registry& registry) {
   if (shard.of == 1) remove_unfinished(sweep);
   const std::vector<std::size_t> cells = cells_to_run(sweep, shard);
+  const FileLock alive = lock_of_sweep(sweep);
   const InterruptGuard guard;
   const std::atomic<bool>& stop = InterruptGuard::flag();
   CountProgress progress(quiet, cells.size(), "runs");
