@@ -11,8 +11,7 @@ namespace harness {
 /// would take its place, and receive what is printed. Writing to such a stdout or stderr still fails.
 void hold_standard_streams();
 
-/// The text with control characters, and bytes that are not UTF-8, written as \u001b, but for line ends and
-/// tabs.
+/// The text with escapes in place of control characters and of bytes that are not UTF-8. Line ends and tabs stay.
 std::string printable(std::string_view text);
 
 /// True if this stream (STDOUT_FILENO, STDERR_FILENO) is a terminal that shows colours and nothing
