@@ -18,7 +18,7 @@ namespace {
 
 constexpr int most_relinearisations = 4;  // [-] in one update
 /// [-] Second-order terms below this share of the sensor's variances are ignored.
-constexpr double least_curvature = 0.05;
+constexpr double least_curvature = 0.1;
 
 }  // namespace
 

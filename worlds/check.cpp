@@ -11,6 +11,7 @@
 #include "worlds/check_faults.hpp"
 #include "worlds/geometry.hpp"
 #include "worlds/shape_tree.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {

@@ -11,6 +11,7 @@
 #include "worlds/describe_fault.hpp"
 #include "worlds/describe_parts.hpp"
 #include "worlds/film_layers.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {

@@ -116,7 +116,8 @@ class TreeBuilder : public YAML::EventHandler {
     nodes_ += more;
     if (nodes_ > limits().values)
       throw GivenUp{
-          mark, fmt::format("more than {} values, aliases included; --limits allows more", limits().values)};
+          mark, fmt::format("more than {} values, aliases included; seifbed --limits 4 COMMAND allows more",
+                            limits().values)};
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, Node::Kind kind) {
@@ -302,7 +303,9 @@ std::optional<Node> parse_document(std::string_view text, const std::string& sou
   if (!check_encoding(text, name, problems)) return std::nullopt;
   if (text.size() > limits().bytes) {
     problems.push_back(
-        {{name, 0, 0}, fmt::format("more than {} bytes; --limits allows more", limits().bytes), ""});
+        {{name, 0, 0},
+         fmt::format("more than {} bytes; seifbed --limits 4 COMMAND allows more", limits().bytes),
+         ""});
     return std::nullopt;
   }
   TreeBuilder builder(name, problems);

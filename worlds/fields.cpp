@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
-#include <numeric>
 #include <utility>
 
 #include "worlds/world.hpp"
@@ -23,20 +21,6 @@ double to_degrees(double radians) {
     if (degrees * degree == radians) return degrees;
   }
   return radians / degree;
-}
-
-/// Levenshtein distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = std::exchange(row[j + 1], std::min({substituted, row[j] + 1, row[j + 1] + 1}));
-    }
-  }
-  return row.back();
 }
 
 }  // namespace
@@ -115,21 +99,6 @@ std::string_view unit_of_key(std::string_view key) {
 std::string show_bound(double bound) {
   if (bound >= beyond_integers) return fmt::format("{}", std::numeric_limits<std::int64_t>::max());
   return fmt::format("{}", bound);
-}
-
-std::string suggestion(std::string_view written, const std::vector<std::string>& choices) {
-  constexpr std::size_t longest = 64;  // longer texts are not typing mistakes
-  if (written.size() > longest) return "";
-  std::size_t nearest = written.size() / 3 + 2;
-  const std::string* best = nullptr;
-  for (const std::string& candidate : choices) {
-    const std::size_t distance = edit_distance(written, candidate);
-    if (distance < nearest && distance < candidate.size()) {
-      nearest = distance;
-      best = &candidate;
-    }
-  }
-  return best == nullptr ? "" : fmt::format(" (did you mean '{}'?)", *best);
 }
 
 }  // namespace worlds

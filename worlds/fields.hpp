@@ -138,8 +138,4 @@ std::string_view unit_of_key(std::string_view key);
 /// A bound of a range, in words.
 std::string show_bound(double bound);
 
-/// " (did you mean 'x'?)" with the choice that is most similar to what was written; empty if no choice is
-/// similar.
-std::string suggestion(std::string_view written, const std::vector<std::string>& choices);
-
 }  // namespace worlds

@@ -70,7 +70,7 @@ void generate_landmarks(const Node& document, WorldFile& world_file, std::vector
                    lacks_path
                        ? "the corridor needs 'points_m', because the drive has no path"
                        : fmt::format("the generator is to place {} landmarks: at least 1 and at most {}; "
-                                     "--limits allows more",
+                                     "seifbed --limits 4 COMMAND allows more",
                                      wanted, most),
                    problems);
       continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "worlds/fields.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {

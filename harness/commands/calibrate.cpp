@@ -4,6 +4,7 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/estimators/calibration.hpp"
+#include "harness/terminal/checks.hpp"
 
 namespace harness {
 
@@ -48,9 +49,9 @@ void add_calibrate(CommandLine line) {
       ->add_option("--robot", arguments->robots, "Which robots of an MRCLAM folder, as 1,2,3; 1 by default")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, most_robots));
   command->add_option("--format", arguments->format, "Format of the logs; by default told by their content")
-      ->check(CLI::IsMember(log_format_names()));
+      ->check(one_of(log_format_names()));
   command->callback([=, &code = line.exit_code] { code = guarded([&] { return calibrate(*arguments); }); });
 }
 

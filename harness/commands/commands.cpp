@@ -3,40 +3,68 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/score/scoreboard.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
+
+namespace {
+
+/// Says what could not be done with which file. Returns the exit code: a place that does not exist, or that one
+/// may not use, is bad input.
+int tell_of(const std::filesystem::filesystem_error& error) {
+  std::error_code lost;
+  static_cast<void>(std::filesystem::current_path(lost));
+  if (lost) {
+    tell_error("seifbed: the working folder cannot be used: it was deleted or moved; change to another one");
+    return 2;
+  }
+  const std::error_code& code = error.code();
+  tell_error(
+      fmt::format("{}: {}", error.path1().empty() ? "seifbed" : error.path1().string(), code.message()));
+  for (const std::errc reason :
+       {std::errc::permission_denied, std::errc::operation_not_permitted, std::errc::read_only_file_system,
+        std::errc::no_such_file_or_directory, std::errc::not_a_directory, std::errc::file_exists}) {
+    if (code == reason) return 2;
+  }
+  return 1;
+}
+
+}  // namespace
 
 void print_problems(std::vector<worlds::Problem> problems) {
   constexpr std::size_t most = 50;  // [-] more would not be read
   worlds::sort_by_place(problems);
   for (std::size_t i = 0; i < std::min(most, problems.size()); ++i)
-    fmt::print(stderr, "{}\n", worlds::to_string(problems[i]));
-  if (problems.size() > most) fmt::print(stderr, "... and {} problems more\n", problems.size() - most);
+    tell_error(worlds::to_string(problems[i]));
+  if (problems.size() > most) tell_error(fmt::format("... and {} problems more", problems.size() - most));
 }
 
 int guarded(const std::function<int()>& command) {
   try {
     return command();
   } catch (const BadInput& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    tell_error(error.what());
     return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    return tell_of(error);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "seifbed: {}\n", error.what());
+    tell_error(fmt::format("seifbed: {}", error.what()));
     return 1;
   }
 }
 
 void add_log_options(CLI::App& command, LogChoice& log) {
   command.add_option("--format", log.format, "Format of the log; by default told by its content")
-      ->check(CLI::IsMember(log_format_names()));
+      ->check(one_of(log_format_names()));
   command.add_option("--robot", log.robot, "Which robot of an MRCLAM folder; 1 by default")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, most_robots));
   command.add_option("--truth", log.truth, "The same graph without noise, for the scores")->type_name("FILE");
   command
       .add_option("--noise", log.noise.file,
@@ -62,11 +90,12 @@ void open_folder(PreparedRun& run, const OutputArguments& output, const std::str
 
 int print_result(const RunResult& result, const std::filesystem::path& folder,
                  const OutputArguments& output) {
-  if (!result.error.empty()) fmt::print(stderr, "{}\n", result.error);
+  if (!result.error.empty()) tell_error(result.error);
   if (result.bad_input) {
     if (result.is_void) std::filesystem::remove_all(folder);
     if (!result.is_void && !output.quiet)
-      fmt::print(stderr, "seifbed: {} holds the run up to there, marked as interrupted\n", folder.string());
+      tell_error(
+          fmt::format("seifbed: {} holds the run up to there, marked as interrupted", folder.string()));
     return exit_code(result);
   }
   return print_output(output, to_json(result.summary), scoreboard(result.summary), folder, exit_code(result));
@@ -80,10 +109,8 @@ int print_output(const OutputArguments& output, const std::string& json, const s
 }
 
 int print_all(const std::string& text, int exit_code) {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (is_written && std::fflush(stdout) == 0) return exit_code;
-  fmt::print(stderr, "seifbed: cannot write to the standard output\n");
-  return 1;
+  print_out(text);
+  return exit_code;
 }
 
 }  // namespace harness

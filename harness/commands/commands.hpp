@@ -37,6 +37,9 @@ void add_validate(CommandLine line);
 void add_schema(CommandLine line);
 void add_doctor(CommandLine line);
 void add_estimators(CommandLine line);
+void add_help(CommandLine line);
+void add_completion(CommandLine line);
+void add_man(CommandLine line);
 
 /// Prints each problem as a line on stderr, sorted by position.
 void print_problems(std::vector<worlds::Problem> problems);
@@ -50,6 +53,10 @@ struct OutputArguments {
   bool json = false;
   bool quiet = false;
 };
+
+inline constexpr int most_robots = 1000;         // [-] of an MRCLAM folder
+inline constexpr double longest_duration = 1e6;  // [s] of a world
+inline constexpr int most_jobs = 256;            // [-] runs at the same time
 
 /// Adds --format, --robot, --truth and --noise.
 void add_log_options(CLI::App& command, LogChoice& log);
@@ -73,7 +80,7 @@ int print_result(const RunResult& result, const std::filesystem::path& folder, c
 int print_output(const OutputArguments& output, const std::string& json, const std::string& board,
                  const std::filesystem::path& folder, int exit_code);
 
-/// Prints to stdout. Returns `exit_code`, unless stdout cannot be written.
+/// Prints to stdout. Returns `exit_code`; main() finds out whether stdout could be written.
 int print_all(const std::string& text, int exit_code);
 
 }  // namespace harness

@@ -14,9 +14,11 @@
 #include "harness/comparison/parallel_runs.hpp"
 #include "harness/comparison/seeds.hpp"
 #include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/run/runnable_world.hpp"
+#include "harness/terminal/checks.hpp"
 #include "harness/terminal/version.hpp"
 
 namespace harness {
@@ -29,7 +31,9 @@ struct CompareArguments {
   ReplayChoices choices;            // its overrides are used for worlds too
   std::string baseline;             // empty: the ekf, otherwise the first
   int jobs = 1;
-  std::string keep;  // empty: the run folders are deleted
+  std::optional<double> duration;  // [s] of a world
+  std::string keep;                // empty: the run folders are deleted
+  std::string out;                 // folder for the tables and comparison.json; empty: none
   bool json = false;
   bool quiet = false;
 };
@@ -63,6 +67,13 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
                                                   Comparison& comparison) {
   if (!arguments.choices.estimators.empty())
     throw BadInput("--estimators is for logs; for a world: --set 'estimators={ekf: {}, seif: {}}'");
+  if (!arguments.choices.seed.empty()) arguments.seeds = arguments.choices.seed;
+  std::vector<std::string>& overrides = arguments.choices.overrides;
+  for (const std::string& assignment : overrides) {
+    if (assignment.starts_with("seed="))
+      throw BadInput(fmt::format("--set {}: seeds are given by --seeds", assignment));
+  }
+  if (arguments.duration) overrides.push_back(fmt::format("duration_s={}", *arguments.duration));
   const std::vector<std::uint64_t> seeds =
       parse_seeds(arguments.seeds.empty() ? "1..20" : std::string_view(arguments.seeds));
   const worlds::LoadResult loaded = load_with_baseline(
@@ -86,7 +97,9 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
 /// settings have problems.
 std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, const seif::Registry& registry,
                                                  Comparison& comparison) {
-  if (!arguments.seeds.empty()) throw BadInput("--seeds is for worlds; a log is recorded");
+  if (!arguments.seeds.empty())
+    throw BadInput("--seeds is for worlds; a log is recorded. --seed is of the estimators that draw");
+  if (arguments.duration) throw BadInput("--duration is for worlds; a log is recorded");
   std::vector<std::string>& names = arguments.choices.estimators;
   if (!names.empty() && !arguments.baseline.empty() &&
       std::ranges::find(names, arguments.baseline) == names.end())
@@ -118,6 +131,12 @@ std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, co
   return planned;
 }
 
+/// Writes what is printed, as tables and as JSON.
+void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
+  write_whole_file(folder / "comparison.txt", comparison_board(comparison));
+  write_whole_file(folder / "comparison.json", to_json(comparison));  // last: the folder is complete
+}
+
 int compare(CompareArguments arguments, const seif::Registry& registry) {
   Comparison comparison;
   const bool are_logs = std::filesystem::is_directory(arguments.inputs.front());
@@ -126,16 +145,19 @@ int compare(CompareArguments arguments, const seif::Registry& registry) {
   const std::optional<std::vector<PlannedRun>> planned =
       are_logs ? plan_logs(arguments, registry, comparison) : plan_seeds(arguments, registry, comparison);
   if (!planned) return 2;
+  if (!arguments.out.empty()) create_empty_folder(arguments.out);
   if (!arguments.keep.empty()) create_empty_folder(arguments.keep);
   FinishedRuns finished = execute_all(*planned, arguments.jobs, arguments.quiet || arguments.json);
   comparison.runs = std::move(finished.runs);
   comparison.interrupted = finished.interrupted;
   compare_estimators(comparison);
+  if (!arguments.out.empty()) write_comparison(comparison, arguments.out);
   std::string text;
   if (arguments.json) {
     text = to_json(comparison);
   } else if (!arguments.quiet) {
     text = comparison_board(comparison);
+    if (!arguments.out.empty()) text += fmt::format("\nWritten to {}\n", arguments.out);
   }
   return print_all(text, exit_code(comparison));
 }
@@ -150,6 +172,7 @@ void add_compare(CommandLine line) {
       "  seifbed compare worlds/courtyard.yaml\n"
       "  seifbed compare worlds/report2002.yaml --seeds 1..50 --jobs 2 --baseline batch\n"
       "  seifbed compare worlds/courtyard.yaml --seeds 3,5,8 --set 'estimators={ekf: {}, eseif: {}}'\n"
+      "  seifbed compare worlds/loop.yaml --duration 60 --out loop\n"
       "  seifbed compare logs/* --estimators ekf,seif --baseline batch --json\n"
       "Every estimator gets the same stream in each run, so ratios are of pairs. Update times are right "
       "with\n"
@@ -157,6 +180,14 @@ void add_compare(CommandLine line) {
   auto arguments = std::make_shared<CompareArguments>();
   command->add_option("WORLD", arguments->inputs, "World file, or log folders")->required();
   command->add_option("--seeds", arguments->seeds, "Seeds of a world, such as 1..20 (the default) or 1,2,7");
+  command
+      ->add_option("--seed", arguments->choices.seed,
+                   "A single seed of a world; of logs, the seed of the estimators that draw")
+      ->check(seed_number())
+      ->type_name("INT")
+      ->excludes("--seeds");
+  command->add_option("--duration", arguments->duration, "Simulated time of a world [s]")
+      ->check(positive_number(longest_duration));
   command
       ->add_option("--estimators", arguments->choices.estimators,
                    "On logs, only these: names from world.yaml, or types")
@@ -170,8 +201,10 @@ void add_compare(CommandLine line) {
       "--baseline", arguments->baseline,
       "Estimator that ratios are taken to; added if it is a type; by default ekf, or the first");
   command->add_option("--jobs", arguments->jobs, "Runs at the same time")
-      ->check(CLI::Range(1, 256))
+      ->check(whole_number(1, most_jobs))
       ->type_name("INT");
+  command->add_option("--out", arguments->out,
+                      "Folder to write to: comparison.txt, the tables, and comparison.json, everything");
   command->add_option("--keep", arguments->keep, "Keep the run folders in this folder");
   command->add_flag("--json", arguments->json, "Print everything as JSON, with every run's summary");
   command->add_flag("--quiet", arguments->quiet, "Print errors only");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 namespace harness {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string text_of(const seif::OptionValue& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
@@ -25,17 +28,38 @@ std::string limits_of(const seif::OptionSpec& option) {
   return fmt::format("{}", fmt::join(limits, ", "));
 }
 
-int list_estimators(const seif::Registry& registry) {
+std::string estimators_list(const seif::Registry& registry) {
+  std::string text;
   for (const seif::EstimatorType& type : registry.types()) {
-    fmt::print("{}\n  {}\n", type.name, type.help);
+    text += fmt::format("{}\n  {}\n", type.name, type.help);
     for (const seif::OptionSpec& option : type.options) {
       const std::string limits = limits_of(option);
-      fmt::print("  {} (default {}{}{})\n      {}\n", option.key, text_of(option.fallback),
-                 limits.empty() ? "" : ", ", limits, option.help);
+      text += fmt::format("  {} (default {}{}{})\n      {}\n", option.key, text_of(option.fallback),
+                          limits.empty() ? "" : ", ", limits, option.help);
     }
-    fmt::print("\n");
+    text += '\n';
   }
-  return 0;
+  return text;
+}
+
+Json option_json(const seif::OptionSpec& option) {
+  const auto limit = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  return {{"key", option.key},
+          {"default", std::visit([](const auto& value) { return Json(value); }, option.fallback)},
+          {"min", limit(option.min)},
+          {"max", limit(option.max)},
+          {"choices", option.choices.empty() ? Json(nullptr) : Json(option.choices)},
+          {"help", option.help}};
+}
+
+std::string estimators_json(const seif::Registry& registry) {
+  Json json = Json::object();
+  for (const seif::EstimatorType& type : registry.types()) {
+    Json options = Json::array();
+    for (const seif::OptionSpec& option : type.options) options.push_back(option_json(option));
+    json[type.name] = {{"help", type.help}, {"options", options}};
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 constexpr const char* estimators_page_head =
@@ -48,35 +72,48 @@ constexpr const char* estimators_page_head =
     "      ekf: {}\n"
     "      careful: {type: ekf, odometry_sd_factor: 2}\n";
 
-int print_page(const seif::Registry& registry) {
-  fmt::print("{}", estimators_page_head);
+std::string estimators_page(const seif::Registry& registry) {
+  std::string text = estimators_page_head;
   for (const seif::EstimatorType& type : registry.types()) {
-    fmt::print("\n## `{}`\n\n{}\n", type.name, type.help);
+    text += fmt::format("\n## `{}`\n\n{}\n", type.name, type.help);
     if (type.options.empty()) continue;
-    fmt::print("\n| option | default | value | meaning |\n|---|---|---|---|\n");
+    text += "\n| option | default | value | meaning |\n|---|---|---|---|\n";
     for (const seif::OptionSpec& option : type.options) {
-      fmt::print("| `{}` | `{}` | {} | {} |\n", option.key, text_of(option.fallback), limits_of(option),
-                 option.help);
+      text += fmt::format("| `{}` | `{}` | {} | {} |\n", option.key, text_of(option.fallback),
+                          limits_of(option), option.help);
     }
   }
-  return 0;
+  return text;
+}
+
+struct EstimatorsArguments {
+  bool markdown = false;
+  bool json = false;
+};
+
+int print_estimators(const EstimatorsArguments& arguments, const seif::Registry& registry) {
+  if (arguments.json) return print_all(estimators_json(registry), 0);
+  return print_all(arguments.markdown ? estimators_page(registry) : estimators_list(registry), 0);
 }
 
 }  // namespace
 
 void add_estimators(CommandLine line) {
   CLI::App* command = line.app.add_subcommand("estimators", "List the types of estimators and their options");
-  const auto as_markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *as_markdown, "Print tables instead, as docs/estimators.md holds them");
+  const auto arguments = std::make_shared<EstimatorsArguments>();
+  command->add_flag("--markdown", arguments->markdown,
+                    "Print tables instead, as docs/estimators.md holds them");
+  command->add_flag("--json", arguments->json, "Print it as JSON")->excludes("--markdown");
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  seifbed estimators\n"
+      "  seifbed estimators --json | jq '.ekf.options[].key'\n"
       "In a world file, under names of your own:\n"
       "  estimators:\n"
       "    ekf: {}\n"
       "    careful: {type: ekf, odometry_sd_factor: 2}");
-  command->callback([as_markdown, &registry = line.registry, &code = line.exit_code] {
-    code = guarded([&] { return *as_markdown ? print_page(registry) : list_estimators(registry); });
+  command->callback([arguments, &registry = line.registry, &code = line.exit_code] {
+    code = guarded([&] { return print_estimators(*arguments, registry); });
   });
 }
 

@@ -11,6 +11,8 @@
 #include "harness/exports/trajectories.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -54,7 +56,10 @@ std::string exported(const ExportArguments& arguments) {
 
 int export_run(const ExportArguments& arguments) {
   const std::string text = exported(arguments);
-  if (arguments.out.empty()) return print_all(text, 0);
+  if (arguments.out.empty()) {
+    print_data(text);
+    return 0;
+  }
   if (std::filesystem::exists(arguments.out))
     throw BadInput(fmt::format("{}: is there already", arguments.out));
   write_whole_file(arguments.out, text);
@@ -76,7 +81,7 @@ void add_export(CommandLine line) {
   command->add_option("RUN", arguments->run, "Folder of a run or of a replay")->required();
   command->add_option("--format", arguments->format, "tum, g2o, gtsam or csv")
       ->required()
-      ->check(CLI::IsMember({"tum", "g2o", "gtsam", "csv"}));
+      ->check(one_of({"tum", "g2o", "gtsam", "csv"}));
   command->add_option(
       "--estimator", arguments->estimator,
       "Whose poses and landmarks; by default the first, with csv all; with tum also truth and "

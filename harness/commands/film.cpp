@@ -12,6 +12,7 @@
 #include "harness/film/film_options.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -55,7 +56,7 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   const int code = result.interrupted ? 130 : 0;
   if (result.frames == 0) {
     std::filesystem::remove(file);
-    fmt::print(stderr, "seifbed: interrupted before the first frame: there is no film\n");
+    tell_error("seifbed: interrupted before the first frame: there is no film");
     return code;
   }
   if (arguments.quiet) return code;

@@ -3,12 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdio>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "harness/commands/call_errors.hpp"
 #include "harness/commands/commands.hpp"
 #include "harness/estimators/registry.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 #include "harness/terminal/version.hpp"
 #include "worlds/limits.hpp"
 
@@ -22,25 +25,7 @@ void raise_limits(double factor) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // A closed pipe or a file-size limit must give an error message, not kill the program.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const seif::Registry registry = harness::known_estimators();
-
-  CLI::App app("A robot testbed: worlds are simulated, estimators run live in them and are scored.",
-               "seifbed");
-  app.set_version_flag("--version", fmt::format("seifbed {}", harness::program_version()));
-  app.require_subcommand(1);
-  app.add_option_function<double>(
-      "--limits", raise_limits,
-      "Let files ask for so many times more than usual: landmarks, values, bytes, "
-      "tries; before the command");
-  app.footer("Each command says more: seifbed run --help");
-  int exit_code = 0;
-  const harness::CommandLine line{app, registry, exit_code};
+void add_commands(const harness::CommandLine& line) {
   harness::add_run(line);
   harness::add_replay(line);
   harness::add_calibrate(line);
@@ -57,11 +42,45 @@ int main(int argc, char** argv) {
   harness::add_doctor(line);
   harness::add_schema(line);
   harness::add_estimators(line);
+  harness::add_help(line);
+  harness::add_completion(line);
+  harness::add_man(line);
+}
+
+int call(int argc, char** argv) {
+  const seif::Registry registry = harness::known_estimators();
+  CLI::App app("A robot testbed: worlds are simulated, estimators run live in them and are scored.",
+               "seifbed");
+  app.set_version_flag("--version", fmt::format("seifbed {}", harness::program_version()),
+                       "Print the version, and exit");
+  app.require_subcommand(1);
+  app.add_option_function<double>(
+         "--limits", raise_limits,
+         "Let files ask for so many times more than usual: landmarks, values, bytes, tries. It stands before "
+         "the command: seifbed --limits 4 run WORLD")
+      ->check(harness::number_between(1.0, 100.0));
+  app.footer("Each command says more: seifbed run --help, or seifbed help run");
+  int exit_code = 0;
+  add_commands({app, registry, exit_code});
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {  // --help and --version
+    std::ostringstream text;
+    app.exit(wanted, text);
+    harness::print_out(text.str());
   } catch (const CLI::ParseError& error) {
-    // Zero for --help and --version; any other parse error is bad input.
-    return app.exit(error) == 0 ? 0 : 2;
+    harness::tell_error(harness::explain(app, error));
+    return 2;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A closed pipe or a file-size limit must give an error message, not kill the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  harness::hold_standard_streams();
+  return harness::finish_output(harness::guarded([&] { return call(argc, argv); }));
 }

@@ -8,26 +8,46 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "harness/commands/commands.hpp"
 #include "harness/comparison/baseline.hpp"
+#include "harness/comparison/seeds.hpp"
+#include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/paper/drawn_run.hpp"
 #include "harness/paper/paper_report.hpp"
+#include "harness/terminal/checks.hpp"
 #include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
 namespace {
 
+constexpr std::int64_t most_runs = 1'000'000;
+
 struct PaperArguments {
   PaperPlan plan;
+  std::string seeds;  // instead of --seed and --runs; empty: these
   OutputArguments output;
 };
+
+/// The runs of --seeds, which follow one another.
+void take_seeds(PaperArguments& arguments) {
+  if (arguments.seeds.empty()) return;
+  const std::vector<std::uint64_t> seeds = parse_seeds(arguments.seeds);
+  if (seeds.back() - seeds.front() != seeds.size() - 1)
+    throw BadInput(fmt::format("--seeds {}: the seeds of seifbed paper follow one another, as in 1..100",
+                               arguments.seeds));
+  arguments.plan.first_seed = seeds.front();
+  arguments.plan.runs = static_cast<std::int64_t>(seeds.size());
+}
 
 int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   const InterruptGuard guard;
   PaperPlan& plan = arguments.plan;
+  take_seeds(arguments);
   plan.quiet = arguments.output.quiet || arguments.output.json;
   const worlds::LoadResult loaded = load_paper_world(plan, registry);
   if (!loaded.world) {
@@ -48,7 +68,7 @@ int reproduce(PaperArguments arguments, const seif::Registry& registry) {
   write_whole_file(plan.folder / "paper.txt", board);
   if (!comparison.interrupted) {
     const std::string complaint = draw_figures(plan, registry);
-    if (!complaint.empty()) fmt::print(stderr, "{}\n", complaint);
+    if (!complaint.empty()) tell_warning(complaint);
   }
   const int code = InterruptGuard::flag() ? 130 : exit_code(comparison);
   return print_output(arguments.output, json, board, plan.folder, code);
@@ -58,14 +78,19 @@ void add_options(CLI::App& command, PaperArguments& arguments) {
   PaperPlan& plan = arguments.plan;
   plan.jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 256);
   command.add_option("--runs", plan.runs, "Runs, each with a seed of its own")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(whole_number(1, most_runs))
       ->capture_default_str();
   command.add_option("--seed", plan.first_seed, "Seed of the first run; those of the others follow")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
+      ->check(whole_number(0, largest_seed - most_runs))
       ->type_name("INT")
       ->capture_default_str();
+  command
+      .add_option("--seeds", arguments.seeds,
+                  "Seeds of the runs, such as 1..100, instead of --seed and --runs")
+      ->excludes("--runs")
+      ->excludes("--seed");
   command.add_option("--jobs", plan.jobs, "Runs at the same time; by default one for each processor")
-      ->check(CLI::Range(1, 256))
+      ->check(whole_number(1, most_jobs))
       ->type_name("INT");
   command.add_flag("--physics", plan.physics, "In Bullet, with contacts and slip, instead of by kinematics");
   command.add_option("--set", plan.overrides, "Set a value of the world file: path.to.key=value")

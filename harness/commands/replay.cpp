@@ -10,6 +10,7 @@
 #include "harness/recording/unfinished.hpp"
 #include "harness/run/prepared_run.hpp"
 #include "harness/run/replay_settings.hpp"
+#include "harness/terminal/checks.hpp"
 
 namespace harness {
 
@@ -78,6 +79,7 @@ void add_replay(CommandLine line) {
           "replaced as a whole")
       ->allow_extra_args(false);
   command->add_option("--seed", arguments->choices.seed, "Seed of the estimators that draw")
+      ->check(seed_number())
       ->type_name("INT");
   add_output_options(*command, arguments->output, "runs/<log>-replay");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {

@@ -9,6 +9,7 @@
 #include "harness/figures/figure_plot.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/report/pages.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -48,7 +49,7 @@ bool draw_figures(const Page& page, const std::filesystem::path& folder) {
   for (const MatrixFigure& matrix : page.matrices) {
     if (complaint.empty()) complaint = draw(matrix, folder);
   }
-  if (!complaint.empty()) fmt::print(stderr, "seifbed: {}\n", complaint);
+  if (!complaint.empty()) tell_error(fmt::format("seifbed: {}", complaint));
   return complaint.empty();
 }
 

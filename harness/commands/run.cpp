@@ -12,6 +12,7 @@
 #include "harness/run/prepared_run.hpp"
 #include "harness/run/resume.hpp"
 #include "harness/run/runnable_world.hpp"
+#include "harness/terminal/checks.hpp"
 #include "harness/terminal/interrupt.hpp"
 #include "harness/terminal/version.hpp"
 
@@ -79,8 +80,11 @@ void add_run(CommandLine line) {
   command->add_option("WORLD", arguments->world, "World file")->required();
   command->add_option("--set", arguments->overrides, "Set a value of the world file: path.to.key=value")
       ->allow_extra_args(false);
-  command->add_option("--seed", arguments->seed, "Seed of everything that is random")->type_name("INT");
-  command->add_option("--duration", arguments->duration, "Simulated time [s]");
+  command->add_option("--seed", arguments->seed, "Seed of everything that is random")
+      ->check(seed_number())
+      ->type_name("INT");
+  command->add_option("--duration", arguments->duration, "Simulated time [s]")
+      ->check(positive_number(longest_duration));
   command->add_flag("--film", arguments->film,
                     "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
                     "drawing between the updates makes their times a little longer");

@@ -27,11 +27,9 @@ constexpr const char* keys_page_head =
 int print_schema(const seif::Registry& registry, bool as_markdown) {
   const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
   if (as_markdown) {
-    fmt::print("{}{}", keys_page_head, worlds::key_tables(schemas));
-  } else {
-    fmt::print("{}\n", worlds::json_schema(schemas));
+    return print_all(keys_page_head + worlds::key_tables(schemas), 0);
   }
-  return 0;
+  return print_all(worlds::json_schema(schemas) + '\n', 0);
 }
 
 }  // namespace

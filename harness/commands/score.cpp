@@ -17,10 +17,15 @@
 #include "harness/run/replay_settings.hpp"
 #include "harness/score/details.hpp"
 #include "harness/score/scoreboard.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
 namespace {
+
+constexpr double longest_distance = 1e9;  // [m]
+constexpr double longest_time = 1e9;      // [s]
 
 struct ScoreArguments {
   std::filesystem::path folder;
@@ -42,7 +47,7 @@ std::vector<RebuiltScore> rebuilt_scores(const ScoreArguments& arguments, const 
   if (arguments.every_update) rebuilding.interval = shorter_than_any;
   const auto go_without = [&](const std::exception& error) {
     if (arguments.every_update) throw;
-    fmt::print(stderr, "seifbed: no NIS and no NEES from the robot: {}\n", error.what());
+    tell_warning(fmt::format("seifbed: no NIS and no NEES from the robot: {}", error.what()));
     return std::vector<RebuiltScore>(names.size());
   };
   try {
@@ -136,12 +141,12 @@ void add_score(CommandLine line) {
                    "Distances of the relative pose error along the path [m]; by default 1,5,10")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number(longest_distance));
   command
       ->add_option(
           "--away-s", arguments->details.away,
           "How long a landmark was out of sight when seeing it again closes a loop [s]; 20 by default")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number(longest_time));
   command
       ->add_option(
           "--reference", arguments->references,
@@ -150,7 +155,7 @@ void add_score(CommandLine line) {
           "program was built with it. The first optimum also says how far the others are from it")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(std::vector<std::string>(references.begin(), references.end())));
+      ->check(one_of({references.begin(), references.end()}));
   CLI::Option* every_update =
       command->add_flag("--every-update", arguments->every_update,
                         "Take NEES and NIS at every update, and not at the scoring times alone");

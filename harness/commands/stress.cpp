@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "harness/commands/commands.hpp"
@@ -16,6 +16,8 @@
 #include "harness/files/output_file.hpp"
 #include "harness/stress/stress_plot.hpp"
 #include "harness/stress/stress_report.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -32,13 +34,11 @@ struct StressArguments {
 void read_limits(StressArguments& arguments) {
   for (const std::string& limit : arguments.limits) {
     const std::size_t equals = limit.find('=');
-    std::int64_t landmarks = 0;
-    try {
-      landmarks = std::stoll(limit.substr(equals + 1));
-    } catch (const std::exception&) {
-      landmarks = -1;
-    }
-    if (equals == std::string::npos || equals == 0 || landmarks < 0)
+    const std::string_view number = std::string_view(limit).substr(equals + 1);  // npos + 1 is 0
+    std::int64_t landmarks = -1;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), landmarks);
+    const bool is_whole = error == std::errc() && end == number.data() + number.size();
+    if (equals == std::string::npos || equals == 0 || !is_whole || landmarks < 0)
       throw BadInput(fmt::format("--limit: '{}' is not like ekf=2000", limit));
     arguments.plan.most_landmarks[limit.substr(0, equals)] = landmarks;
   }
@@ -61,7 +61,7 @@ int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   const std::string json = to_json(plan, result);
   write_whole_file(plan.folder / "stress.json", json);
   const std::string complaint = draw_scaling(scaling_of(result.rows), plan.folder);
-  if (!complaint.empty()) fmt::print(stderr, "{}\n", complaint);
+  if (!complaint.empty()) tell_warning(complaint);
   const std::string tables = stress_tables(plan, result);
   write_whole_file(plan.folder / "stress.txt", tables);
   return print_output(arguments.output, json, tables, plan.folder, result.interrupted ? 130 : 0);
@@ -71,7 +71,7 @@ void add_options(CLI::App& command, StressArguments& arguments) {
   StressPlan& plan = arguments.plan;
   command.add_option("--landmarks", plan.landmarks, "Numbers of landmarks, one world for each")
       ->delimiter(',')
-      ->check(CLI::Range(100, 10'000'000))
+      ->check(whole_number(100, 10'000'000))
       ->capture_default_str();
   command
       .add_option("--estimators", arguments.estimators,
@@ -79,28 +79,30 @@ void add_options(CLI::App& command, StressArguments& arguments) {
       ->delimiter(',')
       ->capture_default_str();
   command.add_option("--density", plan.world.density, "Landmarks for each square metre")
-      ->check(CLI::Range(0.01, 0.3))
+      ->check(number_between(0.01, 0.3))
       ->capture_default_str();
   command.add_option("--updates", plan.updates, "Updates that are measured, five in a simulated second")
-      ->check(CLI::Range(10, 10'000'000))
+      ->check(whole_number(10, 10'000'000))
       ->capture_default_str();
   command
       .add_option("--places", plan.places,
                   "Places along a second round that share these updates; 1: where the warm start has ended")
-      ->check(CLI::Range(1, 1'000))
+      ->check(whole_number(1, 1'000))
       ->capture_default_str();
   command.add_option("--pattern", arguments.pattern, "serpentine, ring or forest")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(stress_pattern_names.begin(), stress_pattern_names.end())))
+      ->check(one_of({stress_pattern_names.begin(), stress_pattern_names.end()}))
       ->capture_default_str();
   command.add_option("--limit", arguments.limits,
                      "The most landmarks for an estimator: ekf=5000 (the default), eif=500 (the default)");
   command
       .add_option("--slowest", plan.slowest_ms,
                   "What an update may take in a warm start before its estimator is given up [ms]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number(1e6))
       ->capture_default_str();
-  command.add_option("--seed", plan.world.seed, "Seed of everything that is random")->capture_default_str();
+  command.add_option("--seed", plan.world.seed, "Seed of everything that is random")
+      ->check(seed_number())
+      ->type_name("INT")
+      ->capture_default_str();
   command.add_option("--set", plan.overrides, "Set a value of the world files: path.to.key=value")
       ->allow_extra_args(false);
   add_output_options(command, arguments.output, "runs/stress", "stress.json instead of the tables");

@@ -12,6 +12,8 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/sweep/slurm.hpp"
 #include "harness/sweep/status.hpp"
+#include "harness/terminal/checks.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -77,6 +79,11 @@ int tell_status(const SweepFolder& sweep) {
   std::string text = to_text(sweep, status);
   if (is_slurm_sweep(sweep) && status.open + status.failed.size() > 0)
     text += to_text(slurm_queue(sweep)) + '\n';
+  if (is_going_on(sweep)) {
+    text += "still going on\n";
+  } else if (status.open > 0 && !is_slurm_sweep(sweep)) {
+    text += fmt::format("not going on: seifbed sweep --resume {} continues it\n", sweep.path.string());
+  }
   return print_all(text, status.failed.empty() ? 0 : 1);
 }
 
@@ -111,13 +118,15 @@ int merge(const MergeArguments& arguments) {
   const SweepFolder sweep = merge_sweeps(arguments.folders, arguments.out);
   const SweepStatus status = status_of(sweep);
   if (status.open == 0) return finish(sweep, arguments.json, arguments.quiet);
-  fmt::print(stderr, "{}to go on: seifbed sweep --resume {}\n", to_text(sweep, status), sweep.path.string());
+  tell_warning(
+      fmt::format("{}to go on: seifbed sweep --resume {}", to_text(sweep, status), sweep.path.string()));
   return 1;
 }
 
 void add_what_is_swept(CLI::App& command, SweepArguments& arguments) {
   command.add_option("WORLD", arguments.world, "World file");
-  command.add_option("--seeds", arguments.choices.seeds, "Seeds, such as 1..100 or 1,2,7");
+  command.add_option("--seeds,--seed", arguments.choices.seeds,
+                     "Seeds, such as 1..100 or 1,2,7, or a single one");
   command
       .add_option("--vary", arguments.choices.axes,
                   "Values of the world file to go through: path.to.key=v1,v2,..; several make a product")
@@ -133,7 +142,7 @@ void add_what_is_swept(CLI::App& command, SweepArguments& arguments) {
 
 void add_how_it_is_swept(CLI::App& command, SweepArguments& arguments) {
   command.add_option("--jobs", arguments.jobs, "Runs at the same time")
-      ->check(CLI::Range(1, 256))
+      ->check(whole_number(1, most_jobs))
       ->type_name("INT");
   command.add_option("--shard", arguments.shard, "Only a part of the runs, such as 3/16");
   command.add_option("--resume", arguments.resume, "Go on with the sweep in this folder")
@@ -156,7 +165,7 @@ void add_slurm(CLI::App& command, SweepArguments& arguments) {
                 "Submit what is not done, and not in the queue, as a job array, and a job that merges it")
       ->excludes("--shard");
   command.add_option("--array", arguments.slurm_choices.tasks, "Tasks of the job array; 64 by default")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(whole_number(1, 1'000'000))
       ->type_name("INT")
       ->needs("--slurm");
   command

@@ -135,6 +135,8 @@ std::string to_json(const Comparison& comparison) {
   json["version"] = program_version();
   json["baseline"] = comparison.baseline;
   json["interrupted"] = comparison.interrupted;
+  json["seeds"] = Json::array();  // in the order of the runs
+  for (const ComparedRun& run : comparison.runs) json["seeds"].push_back(run.result.summary.seed);
   json["estimators"] = Json::object();
   for (const EstimatorComparison& estimator : comparison.estimators)
     json["estimators"][estimator.name] = estimator_json(estimator);

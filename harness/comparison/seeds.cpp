@@ -6,18 +6,22 @@
 #include <set>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/terminal/checks.hpp"
 
 namespace harness {
 
 namespace {
 
 constexpr std::uint64_t most_seeds = 100'000;
+constexpr auto largest = static_cast<std::uint64_t>(largest_seed);
 
 std::uint64_t parse_seed(std::string_view text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
   if (error != std::errc() || end != text.data() + text.size())
     throw BadInput(fmt::format("--seeds: '{}' is no seed; what is meant is like 1..20 or 1,2,7", text));
+  if (seed > largest)
+    throw BadInput(fmt::format("--seeds: '{}' is not allowed: a seed is from 0 to {}", text, largest));
   return seed;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/terminal/checks.hpp"
 #include "worlds/film_layers.hpp"
 
 namespace harness {
@@ -13,6 +14,7 @@ namespace harness {
 namespace {
 
 constexpr std::string_view all = "all";
+constexpr double fastest = 1e6;  // [-] simulated time over film time
 
 std::string layer_names() {
   std::string names;
@@ -65,11 +67,14 @@ void add_film_options(CLI::App& command, FilmOptions& options) {
       "Film to write: .mp4, .webm, .gif, or .png for numbered pictures, and for the single one of --at");
   add("--camera", options.camera, "NAME", "overview, chase, orbit, top or fixed");
   add("--size", options.size, "WxH", "Width and height [px], both even, such as 1920x1080");
-  add("--fps", options.fps, "INT", "Frames for each second of the film");
-  add("--speed", options.speed, "FLOAT", "Simulated over film time; 0: the film takes 40 s at the most");
-  add("--from", options.from, "FLOAT", "Simulated time at which the film begins [s]");
-  add("--to", options.to, "FLOAT", "Simulated time at which the film ends [s]");
-  add("--at", options.at, "FLOAT", "A single picture, at this simulated time [s]");
+  add("--fps", options.fps, "INT", "Frames for each second of the film")->check(whole_number(1, 240));
+  add("--speed", options.speed, "FLOAT", "Simulated over film time; 0: the film takes 40 s at the most")
+      ->check(number_between(0.0, fastest));
+  add("--from", options.from, "FLOAT", "Simulated time at which the film begins [s]")
+      ->check(any_finite_number());
+  add("--to", options.to, "FLOAT", "Simulated time at which the film ends [s]")->check(any_finite_number());
+  add("--at", options.at, "FLOAT", "A single picture, at this simulated time [s]")
+      ->check(any_finite_number());
   add_list("--estimators", options.estimators, "Film these, one or two");
   add_list("--show", options.show, "Show these layers, whatever is hidden: " + layer_names());
   add_list("--hide", options.hide, "Hide these layers");

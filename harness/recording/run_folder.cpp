@@ -1,7 +1,6 @@
 #include "harness/recording/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -48,12 +47,20 @@ std::string file_name_of(std::string_view name) {
 }
 
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name) {
-  std::filesystem::create_directories(parent);
+  std::error_code error;
+  std::filesystem::create_directories(parent, error);
   std::filesystem::path folder = parent / name;
   // create_directory is one mkdir: only the process that makes the folder gets true.
-  for (int next = 2; !std::filesystem::create_directory(folder); ++next)
+  for (int next = 2; !error && !std::filesystem::create_directory(folder, error); ++next)
     folder = parent / fmt::format("{}-{}", name, next);
-  return folder;
+  if (!error) return folder;
+  if (error == std::errc::no_space_on_device)
+    throw std::filesystem::filesystem_error("no folder can be made", folder, error);
+  std::error_code lost;
+  const std::filesystem::path here = std::filesystem::current_path(lost);
+  if (lost) throw BadInput("the working folder was deleted or moved; change to another one");
+  throw BadInput(fmt::format("{}: no folder can be made here, in {}: {}; --out says where to write instead",
+                             parent.string(), here.string(), error.message()));
 }
 
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder) {
@@ -72,18 +79,6 @@ std::filesystem::path free_file(const std::filesystem::path& folder, const std::
   for (int number = 2; std::filesystem::exists(file); ++number)
     file = folder / fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
   return file;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "seifbed_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw std::system_error(errno, std::generic_category(), fmt::format("cannot create {}", pattern));
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 std::string trajectory_hash(const std::filesystem::path& folder) {

@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "harness/files/file_lock.hpp"
 
 namespace harness {
 
@@ -12,7 +15,7 @@ namespace harness {
 std::string file_name_of(std::string_view name);
 
 /// Creates the first free folder of parent/name, parent/name-2, parent/name-3, ... Two programs at the same
-/// time get two folders. Throws std::filesystem::filesystem_error.
+/// time get two folders. Throws BadInput.
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name);
 
 /// Creates exactly this folder, or uses it if it exists and is empty. Otherwise throws BadInput.
@@ -21,10 +24,11 @@ std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 /// The first free path of folder/name and the same with -2, -3, ... before the extension.
 std::filesystem::path free_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-/// A temporary folder. It is deleted with its contents when the object is destroyed.
+/// A temporary folder, seifbed_PID_XXXXXX. It is deleted with its contents when the object is destroyed. The
+/// first one of a process also deletes those that killed processes of this user have left.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws std::system_error
+  TemporaryFolder() : TemporaryFolder(make()) {}  // throws std::system_error
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -33,7 +37,11 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)), lock_(path_) {}
+  static std::filesystem::path make();
+
   std::filesystem::path path_;
+  FileLock lock_;
 };
 
 /// 16 hex digits over the names and bytes of what a run saw and estimated: truth.csv, odometry.csv,

@@ -11,8 +11,10 @@
 #include <system_error>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/files/file_lock.hpp"
 #include "harness/files/input_file.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -74,13 +76,16 @@ bool is_unfinished(const fs::path& run) {
   return fs::exists(run / unfinished_mark, error);
 }
 
+bool is_going_on(const fs::path& run) { return is_locked(run / unfinished_mark); }
+
 void copy_whole_part(const fs::path& run, const fs::path& to) {
   double last_t = std::min(reach_of(run / "odometry.csv", false), reach_of(run / "observations.csv", true));
   for (const char* name : {"truth.csv", "observations_true_ids.csv"}) {
     if (fs::exists(run / name)) last_t = std::min(last_t, reach_of(run / name, name[0] == 'o'));
   }
   if (!(last_t > -std::numeric_limits<double>::infinity()))
-    throw BadInput(fmt::format("{}: was cut off before anything was recorded", run.string()));
+    throw BadInput(run.string() + (is_going_on(run) ? ": is still going on, and nothing is recorded yet"
+                                                    : ": was cut off before anything was recorded"));
   for (const fs::directory_entry& entry : fs::directory_iterator(run)) {
     const fs::path& file = entry.path();
     if (!entry.is_regular_file() || file.filename() == unfinished_mark) continue;
@@ -95,10 +100,15 @@ void copy_whole_part(const fs::path& run, const fs::path& to) {
 fs::path whole_log(const fs::path& run, const fs::path& spare) {
   if (!is_unfinished(run)) return run;
   copy_whole_part(run, spare);
-  fmt::print(stderr,
-             "seifbed: {} was cut off before its end: this is of what is whole of it "
-             "(seifbed run --resume {} completes it)\n",
-             run.string(), run.string());
+  const std::string name = run.string();
+  if (is_going_on(run)) {
+    tell_warning(fmt::format("seifbed: {} is still going on: this is of what is whole of it so far", name));
+  } else {
+    tell_warning(
+        fmt::format("seifbed: {0} was cut off before its end: this is of what is whole of it "
+                    "(seifbed run --resume {0} completes it)",
+                    name));
+  }
   return spare;
 }
 

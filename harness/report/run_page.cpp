@@ -13,6 +13,7 @@
 #include "harness/files/output_file.hpp"
 #include "harness/film/matrix_picture.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/recording/unfinished.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
 #include "harness/run/rebuilding.hpp"
@@ -166,7 +167,8 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays) {
   if (std::filesystem::exists(folder / "sweep.json")) return sweep_page(folder);
   if (std::filesystem::exists(folder / "stress.json")) return stress_page(folder);
-  if (std::filesystem::exists(folder / "summary.json")) return run_page(folder, registry, replays);
+  if (std::filesystem::exists(folder / "summary.json") || is_unfinished(folder))
+    return run_page(folder, registry, replays);
   throw BadInput(
       fmt::format("{}: is no folder of a run, a sweep or a stress test: there is no summary.json, "
                   "sweep.json or stress.json",

@@ -78,6 +78,8 @@ void take_place(const fs::path& again, const fs::path& run) {
 bool is_incomplete(const fs::path& run) {
   if (!fs::exists(run / "world.yaml"))
     throw BadInput(fmt::format("{}: is no folder of a run: it has no world.yaml", run.string()));
+  if (is_going_on(run))
+    throw BadInput(fmt::format("{}: is still going on: there is nothing to resume", run.string()));
   return is_unfinished(run) || read_summary(run / "summary.json").interrupted;
 }
 

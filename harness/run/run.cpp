@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <system_error>
 #include <vector>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/files/file_lock.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/recorder.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
 #include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/messages.hpp"
 #include "harness/terminal/progress.hpp"
 #include "harness/terminal/version.hpp"
 
@@ -30,8 +31,8 @@ std::vector<std::string> names_of(const Believers& believers) {
 /// Prints a message once something was left out. True if it did.
 bool tell_of(const Screening& screening) {
   if (!screening.first_t()) return false;
-  fmt::print(stderr, "at {} s: an invalid measurement was ignored ({}); more of the kind are counted\n",
-             *screening.first_t(), screening.named().front().first);
+  tell_warning(fmt::format("at {} s: an invalid measurement was ignored ({}); more of the kind are counted",
+                           *screening.first_t(), screening.named().front().first));
   return true;
 }
 
@@ -64,6 +65,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   RunResult result;
   believers.dead_reckoning = log.start.mean;
   OutputFile(plan.folder / unfinished_mark).close();
+  const FileLock alive(plan.folder / unfinished_mark);
   Recorder recorder(plan.folder, log, names);
   std::vector<RunListener*> listeners = {&recorder};
   if (follower != nullptr) listeners.push_back(follower);

@@ -125,6 +125,11 @@ Summary parse_summary(std::istream& text) {
 
 Summary read_summary(const std::filesystem::path& file) {
   const bool is_there = std::filesystem::exists(file);
+  if (!is_there && is_going_on(file.parent_path()))
+    throw BadInput(fmt::format(
+        "{0}: is still going on; it has a summary when it ends. seifbed score {0}, and seifbed film "
+        "{0}, take what there is of it so far",
+        file.parent_path().string()));
   if (!is_there && is_unfinished(file.parent_path()))
     throw BadInput(
         fmt::format("{0}: was cut off before its end; seifbed run --resume {0} completes it, and "

@@ -96,6 +96,10 @@ void check_same_sweep(const SweepFolder& theirs, const SweepFolder& ours) {
                              theirs.path.string(), reason, theirs.path.string()));
 }
 
+FileLock lock_of_sweep(const SweepFolder& sweep) { return FileLock(sweep.path / plan_file); }
+
+bool is_going_on(const SweepFolder& sweep) { return is_locked(sweep.path / plan_file); }
+
 void remove_unfinished(const SweepFolder& sweep) {
   remove_unfinished_files(sweep.path);
   remove_unfinished_files(sweep.path / "cells");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/files/file_lock.hpp"
 #include "harness/sweep/cells.hpp"
 #include "harness/sweep/plan.hpp"
 
@@ -32,6 +33,12 @@ SweepFolder begin_sweep(const std::filesystem::path& folder, const SweepPlan& pl
 
 /// Throws BadInput if the two are not parts of one sweep.
 void check_same_sweep(const SweepFolder& theirs, const SweepFolder& ours);
+
+/// A lock on the sweep, to be held while its cells are run.
+FileLock lock_of_sweep(const SweepFolder& sweep);
+
+/// True if a process is running cells of the sweep.
+bool is_going_on(const SweepFolder& sweep);
 
 /// Removes what killed processes have left. No other process may work on the folder.
 void remove_unfinished(const SweepFolder& sweep);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "harness/comparison/seeds.hpp"
 #include "harness/files/bad_input.hpp"
@@ -19,27 +21,67 @@ using Json = nlohmann::ordered_json;
       fmt::format("--vary {}: {}; what is meant is like estimators.seif.theta_x=4,6,8", text, reason));
 }
 
-/// Splits at the commas that are not inside brackets, braces or quotes.
-std::vector<std::string> split_values(std::string_view text) {
-  std::vector<std::string> parts(1);
-  int depth = 0;
-  char quote = '\0';
-  for (const char c : text) {
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '[' || c == '{') {
-      ++depth;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    } else if (c == ',' && depth == 0) {
-      parts.emplace_back();
-      continue;
-    }
-    parts.back() += c;
+/// Reads the values of an axis: YAML, between commas.
+class ValueSplitter {
+ public:
+  /// Splits at the commas that are not inside of brackets, braces or quotes. Empty if one of these is not
+  /// closed.
+  std::optional<std::vector<std::string>> split(std::string_view text) {
+    for (at_ = 0; at_ < text.size(); ++at_) take(text);
+    if (depth_ != 0 || quote_ != '\0') return std::nullopt;
+    for (std::string& part : parts_) part = trimmed(part);
+    return std::move(parts_);
   }
-  return parts;
+
+ private:
+  void take(std::string_view text) {
+    const char c = text[at_];
+    if (c == ',' && depth_ == 0 && quote_ == '\0') {
+      parts_.emplace_back();
+      begins_ = true;
+      return;
+    }
+    parts_.back() += c;
+    if (quote_ != '\0') {
+      take_quoted(text);
+    } else if (begins_ && (c == '"' || c == '\'')) {
+      quote_ = c;
+    } else if ((begins_ || depth_ > 0) && (c == '[' || c == '{')) {
+      ++depth_;
+    } else if (depth_ > 0 && (c == ']' || c == '}')) {
+      --depth_;
+    }
+    // A quote in the middle of a word, as in don't, is a letter.
+    const bool separates = depth_ > 0 && (c == '[' || c == '{' || c == ',' || c == ':');
+    begins_ = quote_ == '\0' && (separates || (begins_ && c == ' '));
+  }
+
+  void take_quoted(std::string_view text) {
+    const bool has_next = at_ + 1 < text.size();
+    const bool is_escape = quote_ == '"' && text[at_] == '\\' && has_next;
+    const bool is_doubled = quote_ == '\'' && text[at_] == quote_ && has_next && text[at_ + 1] == quote_;
+    if (is_escape || is_doubled) {
+      parts_.back() += text[++at_];
+    } else if (text[at_] == quote_) {
+      quote_ = '\0';
+    }
+  }
+
+  static std::string trimmed(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(' ');
+    return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+  }
+
+  std::vector<std::string> parts_{1};
+  std::size_t at_ = 0;
+  int depth_ = 0;       // of brackets and braces
+  char quote_ = '\0';   // the quote that is open
+  bool begins_ = true;  // a value begins here
+};
+
+/// True if a value at `inner` is part of the value at `outer`, or is that value.
+bool is_inside(std::string_view inner, std::string_view outer) {
+  return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
 }
 
 std::string axes_text(const std::vector<SweepAxis>& axes) {
@@ -54,7 +96,9 @@ std::string axes_text(const std::vector<SweepAxis>& axes) {
 SweepAxis parse_axis(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) refuse_axis(text, "has no path and values");
-  SweepAxis axis{std::string(text.substr(0, equals)), split_values(text.substr(equals + 1))};
+  const std::optional<std::vector<std::string>> values = ValueSplitter().split(text.substr(equals + 1));
+  if (!values) refuse_axis(text, "a quote, a bracket or a brace is not closed");
+  SweepAxis axis{std::string(text.substr(0, equals)), *values};
   for (auto value = axis.values.begin(); value != axis.values.end(); ++value) {
     if (value->empty()) refuse_axis(text, "a value is missing");
     if (std::find(axis.values.begin(), value, *value) != value)
@@ -66,9 +110,12 @@ SweepAxis parse_axis(std::string_view text) {
 
 void check_plan(const SweepPlan& plan) {
   for (auto axis = plan.axes.begin(); axis != plan.axes.end(); ++axis) {
-    if (std::find_if(plan.axes.begin(), axis, [&](const SweepAxis& a) { return a.path == axis->path; }) !=
-        axis)
-      throw BadInput(fmt::format("--vary {}: stands twice", axis->path));
+    for (auto earlier = plan.axes.begin(); earlier != axis; ++earlier) {
+      if (earlier->path == axis->path) throw BadInput(fmt::format("--vary {}: stands twice", axis->path));
+      if (is_inside(earlier->path, axis->path))
+        throw BadInput(fmt::format("--vary {}: would have no effect, because --vary {} comes after it",
+                                   earlier->path, axis->path));
+    }
   }
   std::size_t count = plan.seeds.size();
   for (const SweepAxis& axis : plan.axes) {
@@ -76,6 +123,18 @@ void check_plan(const SweepPlan& plan) {
     if (count > most_cells)
       throw BadInput(
           fmt::format("a sweep has at most {} cells, the product of seeds and values", most_cells));
+  }
+}
+
+void check_overrides(const SweepPlan& plan, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) {
+    const std::string path = assignment.substr(0, assignment.find('='));
+    if (path == "seed") throw BadInput(fmt::format("--set {}: seeds are given by --seeds", assignment));
+    for (const SweepAxis& axis : plan.axes) {
+      if (is_inside(path, axis.path))
+        throw BadInput(fmt::format("--set {}: would have no effect, because --vary {} sets it in every run",
+                                   assignment, axis.path));
+    }
   }
 }
 

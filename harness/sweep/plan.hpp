@@ -41,8 +41,11 @@ inline constexpr std::size_t most_cells = 10'000'000;
 /// Reads `path=v1,v2,..`. Commas inside brackets, braces or quotes do not separate values. Throws BadInput.
 SweepAxis parse_axis(std::string_view text);
 
-/// Throws BadInput if an axis occurs twice, or if there are more than most_cells cells.
+/// Throws BadInput if an axis occurs twice or sets the whole section of an earlier one, or if there are more than most_cells cells.
 void check_plan(const SweepPlan& plan);
+
+/// Throws BadInput if one of these, path.to.key=value for all runs, sets what the plan varies.
+void check_overrides(const SweepPlan& plan, const std::vector<std::string>& overrides);
 
 std::size_t setting_count(const SweepPlan& plan);
 std::size_t cell_count(const SweepPlan& plan);

@@ -122,6 +122,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
   plan.seeds = parse_seeds(choices.seeds);
   for (const std::string& axis : choices.axes) plan.axes.push_back(parse_axis(axis));
   check_plan(plan);
+  check_overrides(plan, choices.overrides);
   std::vector<std::string> overrides = choices.overrides;
   const worlds::LoadResult loaded = load_with_baseline(choices.baseline, registry, overrides, [&] {
     return load_runnable_world(choices.world, overrides, registry);
@@ -145,6 +146,7 @@ bool run_cells(const SweepFolder& sweep, const Shard& shard, int jobs, bool quie
                const seif::Registry& registry) {
   if (shard.of == 1) remove_unfinished(sweep);
   const std::vector<std::size_t> cells = cells_to_run(sweep, shard);
+  const FileLock alive = lock_of_sweep(sweep);
   const InterruptGuard guard;
   const std::atomic<bool>& stop = InterruptGuard::flag();
   CountProgress progress(quiet, cells.size(), "runs");

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <utility>
+
+#include "harness/terminal/messages.hpp"
 
 namespace harness {
 
@@ -18,7 +19,7 @@ constexpr const char* clear_line = "\r\033[K";
 StatusLine::StatusLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 StatusLine::~StatusLine() {
-  if (is_shown_) fmt::print(stderr, "{}", clear_line);
+  if (is_shown_) write_to_stderr(clear_line);
 }
 
 bool StatusLine::is_due() {
@@ -29,10 +30,7 @@ bool StatusLine::is_due() {
   return true;
 }
 
-void StatusLine::show(const std::string& line) {
-  fmt::print(stderr, "{}{}", clear_line, line);
-  std::fflush(stderr);
-}
+void StatusLine::show(const std::string& line) { write_to_stderr(clear_line + printable(line)); }
 
 double StatusLine::elapsed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 

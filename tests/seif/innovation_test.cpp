@@ -60,6 +60,7 @@ std::unique_ptr<Estimator> make(const std::string& type, const EstimatorSetup& s
   SeifOptions options;
   options.first_estimates = 0;  // Jacobians at the mean, as in the definition
   options.closing_gate = 0.0;
+  options.linearisation_noise = 0.0;
   options.theta_max = 100;  // no sparsification, which would change the belief
   return std::make_unique<Seif>(setup, options);
 }

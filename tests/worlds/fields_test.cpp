@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "world_files.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace worlds {
 namespace {
@@ -206,6 +207,12 @@ TEST(Suggestion, NamesTheNearestOrNothing) {
   EXPECT_EQ(suggestion("max_rang_m", {"max_range_m", "fov_deg"}), " (did you mean 'max_range_m'?)");
   EXPECT_EQ(suggestion("elephant", {"max_range_m", "fov_deg"}), "");
   EXPECT_EQ(suggestion(std::string(100000, 'x'), {"max_range_m"}), "");
+  EXPECT_EQ(suggestion("x", {"id", "y_m", "x_m"}), " (did you mean 'x_m'?)");
+  EXPECT_EQ(suggestion("range_m", {"rate_hz", "max_range_m"}), " (did you mean 'max_range_m'?)");
+  EXPECT_EQ(suggestion("max_range", {"max_range_m", "max_range_sd_m"}), " (did you mean 'max_range_m'?)");
+  EXPECT_EQ(suggestion("robot_mass_kg", {"robot", "mass_kg"}), " (did you mean 'mass_kg'?)");
+  EXPECT_EQ(suggestion("m", {"max_range_m", "y_m"}), "") << "a unit alone";
+  EXPECT_EQ(suggestion("--sed", {"--set", "--seed"}), " (did you mean '--seed'?)") << "a letter left out";
 }
 
 }  // namespace

@@ -298,11 +298,12 @@ TEST_P(BadCalls, EndWithCodeTwoAndAReason) {
 INSTANTIATE_TEST_SUITE_P(
     CommandLine, BadCalls,
     testing::Values(
-        BadCall{"", "subcommand is required"}, BadCall{"run", "WORLD is required"},
+        BadCall{"", "a command is missing"}, BadCall{"run", "WORLD is required"},
         BadCall{"run nothing.yaml", "nothing.yaml"}, BadCall{"run world.yaml --bogus", "--bogus"},
-        BadCall{"run world.yaml --seed -1", "seed=-1"}, BadCall{"run world.yaml --out full", "not empty"},
+        BadCall{"run world.yaml --seed -1", "--seed: '-1' is not allowed"},
+        BadCall{"run world.yaml --out full", "not empty"},
         BadCall{"run world.yaml --set estimators.ekf.bogus=1", "unknown key 'bogus'"},
-        BadCall{"run world.yaml --duration -3", "duration_s"},
+        BadCall{"run world.yaml --duration -3", "--duration: '-3' is not allowed"},
         BadCall{"run world.yaml --set drive.pose_from=nobody", "nobody"},
         BadCall{"validate nothing.yaml", "nothing.yaml"}, BadCall{"replay nothing", "no such folder"},
         BadCall{"replay full", "odometry.csv: cannot be read"},
@@ -327,7 +328,7 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
   const TemporaryFolder folder;
   for (const std::string command :
        {"run", "replay", "score", "export", "film", "report", "compare", "paper", "stress", "sweep", "merge",
-        "validate", "doctor", "schema", "estimators"}) {
+        "validate", "doctor", "schema", "estimators", "help", "completion", "man"}) {
     const Called help = call(folder, command + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("seifbed " + command), std::string::npos) << command;

@@ -102,8 +102,8 @@ TEST(FilmOptions, AreCheckedAsPartOfTheWorld) {
   EXPECT_NE(problems_of("my_run --estimators sief").find("did you mean 'seif'?"), std::string::npos);
   EXPECT_NE(problems_of("my_run --estimators a,b,c").find("at most 2 names"), std::string::npos);
   EXPECT_NE(problems_of("my_run --size 641x360").find("multiple of 2"), std::string::npos);
-  EXPECT_NE(problems_of("my_run --fps 0").find("at least 1"), std::string::npos);
-  EXPECT_NE(problems_of("my_run --speed -1").find("at least 0"), std::string::npos);
+  EXPECT_THROW(problems_of("my_run --fps 0"), CLI::ValidationError);
+  EXPECT_THROW(problems_of("my_run --speed -1"), CLI::ValidationError);
 }
 
 TEST(FilmOptions, RefuseASizeThatIsNone) {

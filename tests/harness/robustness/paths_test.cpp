@@ -100,7 +100,7 @@ TEST(Limits, AreRaisedByAFlagBeforeTheCommand) {
   test::write_file(folder / "world.yaml", text);
   const Called usual = call(folder, "validate world.yaml");
   EXPECT_EQ(usual.exit_code, 2);
-  EXPECT_EQ(usual.errors, "world.yaml: more than 4194304 bytes; --limits allows more\n");
+  EXPECT_EQ(usual.errors, "world.yaml: more than 4194304 bytes; seifbed --limits 4 COMMAND allows more\n");
   EXPECT_EQ(call(folder, "--limits 2 validate world.yaml").output, "world.yaml: fine, 100 landmarks\n");
   for (const char* wrong : {"0", "1e9", "many", "nan"})
     EXPECT_EQ(call(folder, std::string("--limits ") + wrong + " validate world.yaml").exit_code, 2) << wrong;

@@ -24,6 +24,16 @@ TEST(SweepAxis, CommasInsideBracketsAndQuotesSeparateNothing) {
   EXPECT_EQ(axis.values, (Texts{"{ekf: {}, seif: {}}", "{seif: {K: 3}}", "[1,2]", "'a,b'", "6"}));
 }
 
+TEST(SweepAxis, ValuesAreSplitAsYamlReadsThem) {
+  EXPECT_EQ(parse_axis("a.b={'x, y': 1}, {\"}\": [2, 'it''s, so']}").values,
+            (Texts{"{'x, y': 1}", "{\"}\": [2, 'it''s, so']}"}));
+  EXPECT_EQ(parse_axis(R"(a="x\", y",z)").values, (Texts{R"("x\", y")", "z"}));
+  EXPECT_EQ(parse_axis("a=don't, can't").values, (Texts{"don't", "can't"})) << "no quotes, but letters";
+  EXPECT_EQ(parse_axis("a=x],y").values, (Texts{"x]", "y"}));
+  for (const char* open : {"a='x", "a=[1,2", "a={b: 1", "a=\"x\\\""})
+    EXPECT_THROW(parse_axis(open), BadInput) << open;
+}
+
 TEST(ShortPaths, AreTheLastKeysWhereThoseDiffer) {
   EXPECT_EQ(short_paths(example_plan()), (Texts{"b", "c"}));
   SweepPlan plan = example_plan();
@@ -99,7 +109,7 @@ TEST(SweepPlan, TellsWhatOfAnotherIsDifferent) {
 }
 
 TEST(Seeds, TheirTextMeansThem) {
-  for (const char* text : {"1..3,7", "0", "5..6", "1,3,5..9,18446744073709551615"}) {
+  for (const char* text : {"1..3,7", "0", "5..6", "1,3,5..9,9223372036854775807"}) {
     EXPECT_EQ(seeds_text(parse_seeds(text)), text);
   }
   EXPECT_EQ(seeds_text(parse_seeds("7,1,2,2,3")), "1..3,7");

@@ -108,8 +108,8 @@ TEST(AssociatingSeif, GivesTheSameNamesWhereverTheStartMayBe) {
   std::vector<std::unique_ptr<AssociatingFilter>> filters;
   for (const EstimatorSetup& setup : {drive.setup(), uncertain})
     filters.push_back(
-        std::make_unique<AssociatingFilter>(named_filter("seif", setup, {.linearisation_noise = 0.0}),
-                                            setup, AssociationOptions{.jointly = true}));
+        std::make_unique<AssociatingFilter>(named_filter("seif", setup, {.linearisation_noise = 0.0}), setup,
+                                            AssociationOptions{.jointly = true}));
   for (int step = 0; step < drive.steps_for_a_round() - 20; ++step) {
     drive.advance();
     for (const auto& filter : filters) {
