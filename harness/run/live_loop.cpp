@@ -195,7 +195,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.times = times_[index];
   if (!estimator.filter->needs_names()) {
     record.associations = estimator.filter->associations();
-    true_names_[index].add(*record.associations, event.true_ids);
+    true_names_[index].add(*record.associations, event);
   }
   times_[index] = {};
   for (RunListener* listener : listeners_) listener->update(index, record);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "harness/files/csv_reader.hpp"
@@ -12,6 +13,10 @@ namespace harness {
 
 namespace {
 
+// Columns of observations.csv.
+constexpr int name_column = 1;
+constexpr int range_column = 2;
+
 seif::LandmarkId id_in(const CsvReader& rows, int column) {
   if (rows.is_empty(column)) return seif::no_landmark;
   return static_cast<seif::LandmarkId>(rows.integer(column, 0, std::numeric_limits<seif::LandmarkId>::max()));
@@ -19,9 +24,16 @@ seif::LandmarkId id_in(const CsvReader& rows, int column) {
 
 }  // namespace
 
-void TrueNames::add(std::span<const seif::LandmarkId> names, std::span<const seif::LandmarkId> true_ids) {
-  for (std::size_t i = 0; i < std::min(names.size(), true_ids.size()); ++i) {
-    if (names[i] != seif::no_landmark) add(names[i], true_ids[i]);
+std::optional<seif::LandmarkId> true_id(const ScanEvent& event, std::size_t i) {
+  if (!event.true_ids.empty()) return event.true_ids.at(i);
+  const seif::LandmarkId name = event.scan.observations.at(i).landmark;
+  return name == seif::no_landmark ? std::nullopt : std::optional(name);
+}
+
+void TrueNames::add(std::span<const seif::LandmarkId> names, const ScanEvent& event) {
+  for (std::size_t i = 0; i < std::min(names.size(), event.scan.observations.size()); ++i) {
+    if (names[i] == seif::no_landmark) continue;
+    if (const std::optional<seif::LandmarkId> id = true_id(event, i)) add(names[i], *id);
   }
 }
 
@@ -58,11 +70,14 @@ std::optional<Associations> read_associations(const std::filesystem::path& folde
   while (names.next()) {  // a filter that failed has fewer rows
     if (!observations.next() || (true_ids && !true_ids->next()))
       names.fail(0, "observations.csv, or the file of the true ids, has no row for this one");
-    constexpr int range_column = 2;
     if (observations.is_empty(range_column)) continue;
     const seif::LandmarkId name = id_in(names, 1);
     ++(name == seif::no_landmark ? associations.left_out : associations.named);
-    if (true_ids && name != seif::no_landmark) associations.names->add(name, id_in(*true_ids, 1));
+    const bool bears_name = !observations.is_empty(name_column);
+    if (!true_ids && !bears_name) continue;
+    if (!associations.names) associations.names.emplace();
+    if (name == seif::no_landmark) continue;
+    associations.names->add(name, true_ids ? id_in(*true_ids, 1) : id_in(observations, name_column));
   }
   return associations;
 }

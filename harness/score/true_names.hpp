@@ -2,6 +2,7 @@
 // the landmark that most of the name's observations truly saw. Definitions: docs/scores.md.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -15,13 +16,18 @@
 
 namespace harness {
 
+/// The world's landmark behind observation `i` of a scan: the recorded true id, or else the name that the
+/// observation bears. no_landmark: a false detection. Empty if neither is known.
+std::optional<seif::LandmarkId> true_id(const ScanEvent& event, std::size_t i);
+
 class TrueNames {
  public:
   /// Counts one observation that the filter took for `name` and that truly saw `true_id` (no_landmark: a
   /// false detection).
   void add(seif::LandmarkId name, seif::LandmarkId true_id) { ++counts_[name][true_id]; }
-  /// Counts the observations of one scan. An observation that the filter left out does not count.
-  void add(std::span<const seif::LandmarkId> names, std::span<const seif::LandmarkId> true_ids);
+  /// Counts the observations of one scan, to which the filter gave `names`. An observation does not count if
+  /// the filter left it out, or if its true landmark is not known.
+  void add(std::span<const seif::LandmarkId> names, const ScanEvent& event);
 
   /// The world's landmark behind a name. If two landmarks have the same count, it is the one with the smaller
   /// id. no_landmark if most observations of the name were false detections, or if the name was never given.
@@ -39,7 +45,7 @@ class TrueNames {
 struct Associations {
   std::int64_t named = 0;          // [-] observations that it gave a name
   std::int64_t left_out = 0;       // [-] observations without a name
-  std::optional<TrueNames> names;  // if the true ids are known
+  std::optional<TrueNames> names;  // if the true ids are recorded, or the observations bear names
 };
 
 /// Reads `ESTIMATOR_associations.csv`. Empty if the filter is told the ids. Throws BadInput, as does

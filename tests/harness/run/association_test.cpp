@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -34,7 +35,10 @@ worlds::World nameless_world() {
 
 TEST(TrueNames, GoWithTheMajority) {
   TrueNames names;
-  names.add(std::vector<seif::LandmarkId>{0, 1, seif::no_landmark}, std::vector<seif::LandmarkId>{7, 8, 9});
+  ScanEvent event;
+  event.scan.observations.resize(3);
+  event.true_ids = {7, 8, 9};
+  names.add(std::vector<seif::LandmarkId>{0, 1, seif::no_landmark}, event);
   names.add(0, 7);
   names.add(0, 8);
   names.add(1, seif::no_landmark);
@@ -44,6 +48,16 @@ TEST(TrueNames, GoWithTheMajority) {
   EXPECT_EQ(names.of(1), seif::no_landmark) << "mostly false detections";
   EXPECT_EQ(names.of(5), seif::no_landmark) << "never given";
   EXPECT_EQ(names.right(), 2);
+}
+
+TEST(TrueNames, AreThoseThatTheObservationsBearIfNoOthersAreRecorded) {
+  TrueNames names;
+  ScanEvent event;
+  event.scan.observations = {{.landmark = 7}, {.landmark = seif::no_landmark}};
+  names.add(std::vector<seif::LandmarkId>{0, 1}, event);
+  EXPECT_EQ(names.of(0), 7);
+  EXPECT_EQ(names.of(1), seif::no_landmark);
+  EXPECT_EQ(names.right(), 1);
 }
 
 TEST(TrueNames, OfTwoThatAreOneThatWithMoreRightObservationsCounts) {
@@ -75,6 +89,31 @@ TEST(ReadAssociations, CountsRowByRow) {
   EXPECT_FALSE(read_associations(folder.path(), "ekf"));
   write_file(folder / "seif_associations.csv", "t,landmark\n1,0\n1,\n2,\n3,0\n3,0\n4,0\n5,0\n");
   EXPECT_THROW(read_associations(folder.path(), "seif"), BadInput);
+}
+
+TEST(ReadAssociations, TakesTheNamesThatTheObservationsBear) {
+  const TemporaryFolder folder;
+  write_file(folder / "observations.csv", "t,landmark,range,bearing\n1,7,2,0\n1,8,3,0\n2,,,\n3,7,2,0\n");
+  write_file(folder / "seif_associations.csv", "t,landmark\n1,0\n1,\n2,\n3,0\n");
+  EXPECT_EQ(read_associations(folder.path(), "seif")->names.value().right(0), 2);
+  write_file(folder / "observations.csv", "t,landmark,range,bearing\n1,,2,0\n1,,3,0\n2,,,\n3,,2,0\n");
+  EXPECT_FALSE(read_associations(folder.path(), "seif")->names);
+}
+
+// The filter's own names 0, 1, 2, .. are also ids of the world, but of other landmarks.
+TEST(NamedRun, OfAFilterWithNamesOfItsOwnIsScoredByTheNamesThatTheObservationsBear) {
+  const TemporaryFolder folder;
+  worlds::World world = nameless_world();
+  world.landmark_sensor.ids = worlds::LandmarkIds::known;
+  world.landmark_sensor.false_detections = 0.0;
+  const RunResult run = run_live(world, folder / "run");
+  ASSERT_EQ(exit_code(run), 0) << run.error;
+  ASSERT_FALSE(std::filesystem::exists(folder / "run" / "observations_true_ids.csv"));
+  for (const EstimatorScore& score : run.summary.score.estimators) {
+    EXPECT_LT(score.landmarks.rmse_aligned.value(), 0.05) << score.name;
+    EXPECT_EQ(score.associations_right, 1.0) << score.name;
+    EXPECT_LT(score.nees_landmark_final.value(), 5.0) << score.name;
+  }
 }
 
 TEST(NamelessRun, IsScoredByWhatTheLandmarksTrulyAre) {
