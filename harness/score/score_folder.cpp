@@ -7,7 +7,7 @@
 
 #include "harness/files/csv_reader.hpp"
 #include "harness/recording/step_table.hpp"
-#include "harness/score/true_names.hpp"
+#include "harness/score/seen_landmarks.hpp"
 #include "harness/statistics/divergence.hpp"
 #include "harness/stream/log_stream.hpp"
 
@@ -29,7 +29,10 @@ void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark
   const ScoredMap map = read_scored_map(folder, score.name);
   const int mapped = static_cast<int>(map.landmarks.size()) + map.duplicates;
   score.landmarks_mapped = mapped;
-  if (!is_known) return;
+  score.matched_by = map.matched_by;
+  if (!is_known || map.matched_by == MatchedBy::nothing) return;
+  if (map.matched_by == MatchedBy::place)
+    score.by_place = count_landmarks(map.landmarks, truth, read_seen_landmarks(folder));
   const std::vector<PointPair> points = pair_landmarks(map.landmarks, truth);
   score.landmarks = score_points(points);
   score.landmarks_spurious = mapped - static_cast<int>(points.size());
@@ -184,17 +187,17 @@ std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<
 
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval) {
-  const bool landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
-  const std::vector<TrueLandmark> landmarks =
-      landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
   RunScore run;
+  run.landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
+  const std::vector<TrueLandmark> landmarks =
+      run.landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
   run.odometry.name = "odometry";
   score_trajectory(folder, rpe_interval, run.odometry);
   for (const std::string& name : estimators) {
     EstimatorScore score;
     score.name = name;
     score_trajectory(folder, rpe_interval, score);
-    score_map(folder, landmarks, landmarks_are_known, score);
+    score_map(folder, landmarks, run.landmarks_are_known, score);
     score_associations(folder, score);
     score_steps(folder, score);
     score_times(folder, score);

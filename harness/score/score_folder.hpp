@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/score/map_counts.hpp"
 #include "harness/score/score.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/stream/run_listener.hpp"
 
 namespace harness {
@@ -19,6 +21,8 @@ struct EstimatorScore {
   std::string name;
   std::optional<int> landmarks_mapped;        // [-]
   std::optional<int> landmarks_spurious;      // [-] landmarks in the map that the world does not have
+  MatchedBy matched_by = MatchedBy::id;       // how the landmarks of the map were found in the world
+  std::optional<MapCounts> by_place;          // [-] if they were found by place, and the world is known
   PointScore landmarks;                       // [m]
   PointScore trajectory;                      // [m] absolute trajectory error
   RelativePoseError rpe;                      // [m, rad]
@@ -55,6 +59,7 @@ struct TimedPose {
 struct RunScore {
   EstimatorScore odometry;  // dead reckoning: its trajectory only
   std::vector<EstimatorScore> estimators;
+  bool landmarks_are_known = false;  // the true ones
 };
 
 // These functions throw BadInput if a file is missing or broken.

@@ -34,7 +34,7 @@ std::optional<double> part(const std::optional<Percentiles>& values, double Perc
 
 TextRow accuracy_row(const EstimatorScore& score) {
   return {score.name,
-          count_text(score.landmarks_mapped),
+          count_text(score.landmarks_mapped) + (score.by_place ? " *" : ""),
           number(score.landmarks.rmse, 3),
           number(score.landmarks.rmse_aligned, 3),
           number(score.trajectory.rmse, 3),
@@ -110,6 +110,27 @@ std::string gate_line(const Summary& summary) {
          count_line(summary, "Observations that counted less", &EstimatorScore::weakened);
 }
 
+/// How the landmarks of an estimator with names of its own were found in the world, where that is not
+/// recorded; empty without such an estimator.
+std::string matching_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (score.by_place) {
+      const MapCounts& map = *score.by_place;
+      const std::string missed = map.missed ? fmt::format("{} missed, ", *map.missed) : "";
+      text += fmt::format(
+          "\n* Landmarks of {} matched by place: {} matched, {}{} spurious, {} of them duplicate", score.name,
+          score.landmarks_mapped.value_or(0) - map.spurious, missed, map.spurious, map.duplicate);
+    } else if (score.matched_by == MatchedBy::nothing && summary.score.landmarks_are_known) {
+      text += fmt::format(
+          "\nThe map of {} has no score: its names are its own, and its place among the true landmarks is "
+          "not clear",
+          score.name);
+    }
+  }
+  return text.empty() ? text : text + '\n';
+}
+
 /// The associations of the estimators that name landmarks by themselves; empty without such an estimator.
 std::string association_lines(const Summary& summary) {
   std::string text;
@@ -146,8 +167,8 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + left_out_line(summary) + gate_line(summary) + association_lines(summary) +
-          divergence_lines(summary);
+  text += log_line(summary) + left_out_line(summary) + matching_lines(summary) + gate_line(summary) +
+          association_lines(summary) + divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "harness/files/csv_reader.hpp"
+#include "harness/score/place_matching.hpp"
 #include "harness/score/score_folder.hpp"
+#include "harness/statistics/alignment.hpp"
+#include "harness/stream/log_stream.hpp"
 
 namespace harness {
 
@@ -85,6 +89,7 @@ std::optional<Associations> read_associations(const std::filesystem::path& folde
 ScoredMap score_names(std::span<const MapRecord> map, const TrueNames& names) {
   std::map<seif::LandmarkId, const MapRecord*> best;  // by true id
   ScoredMap scored;
+  scored.matched_by = MatchedBy::vote;
   for (const MapRecord& landmark : map) {
     const seif::LandmarkId id = names.of(landmark.landmark);
     if (id == seif::no_landmark) continue;
@@ -102,10 +107,32 @@ ScoredMap score_names(std::span<const MapRecord> map, const TrueNames& names) {
   return scored;
 }
 
+namespace {
+
+/// All ids are replaced.
+ScoredMap score_places(std::vector<MapRecord> map, const std::filesystem::path& folder,
+                       const std::string& estimator) {
+  std::optional<std::vector<seif::LandmarkId>> ids;
+  if (std::filesystem::exists(folder / "landmarks.csv")) {
+    std::vector<Eigen::Vector2d> est_path;
+    std::vector<Eigen::Vector2d> true_path;
+    for (const PosePair& pair : read_poses(folder, estimator)) {
+      est_path.emplace_back(pair.est_pose.x, pair.est_pose.y);
+      true_path.emplace_back(pair.true_pose.x, pair.true_pose.y);
+    }
+    ids = match_by_place(map, read_landmarks(folder / "landmarks.csv"), align(est_path, true_path));
+  }
+  for (std::size_t i = 0; i < map.size(); ++i) map[i].landmark = ids ? ids->at(i) : seif::no_landmark;
+  return {std::move(map), 0, ids ? MatchedBy::place : MatchedBy::nothing};
+}
+
+}  // namespace
+
 ScoredMap read_scored_map(const std::filesystem::path& folder, const std::string& estimator) {
-  const std::vector<MapRecord> map = read_map(folder, estimator);
+  std::vector<MapRecord> map = read_map(folder, estimator);
   const std::optional<Associations> associations = read_associations(folder, estimator);
-  if (!associations || !associations->names) return {map, 0};
+  if (!associations) return {std::move(map)};
+  if (!associations->names) return score_places(std::move(map), folder, estimator);
   return score_names(map, *associations->names);
 }
 

@@ -53,13 +53,18 @@ struct Associations {
 std::optional<Associations> read_associations(const std::filesystem::path& folder,
                                               const std::string& estimator);
 
+/// How the world's landmark behind each landmark of a map was found.
+enum class MatchedBy { id, vote, place, nothing };
+
 /// A map with the ids of the world where they are known. An id is no_landmark if the world has no such
 /// landmark.
 struct ScoredMap {
   std::vector<MapRecord> landmarks;
   int duplicates = 0;  // [-] left out: another one with more right observations is the same landmark
+  MatchedBy matched_by = MatchedBy::id;  // nothing: all ids are no_landmark
 };
 
+/// Names that the filter made by itself are replaced by a vote, or else by place (match_by_place()).
 ScoredMap read_scored_map(const std::filesystem::path& folder, const std::string& estimator);
 ScoredMap score_names(std::span<const MapRecord> map, const TrueNames& names);
 

@@ -10,6 +10,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/score/details.hpp"
+#include "harness/score/scoreboard.hpp"
 #include "harness/score/true_names.hpp"
 
 namespace harness {
@@ -135,6 +136,50 @@ TEST(NamelessRun, IsScoredByWhatTheLandmarksTrulyAre) {
   }
   const auto summary = nlohmann::json::parse(read_file(folder / "run" / "summary.json"));
   EXPECT_GT(summary["estimators"]["seif"]["associations_right"], 0.99);
+}
+
+// As a log that somebody else has written: nobody recorded what the observations truly are.
+TEST(NamelessRun, WithoutTrueIdsIsScoredByPlace) {
+  const TemporaryFolder folder;
+  const worlds::World world = nameless_world();
+  const RunResult voted = run_live(world, folder / "run");
+  std::filesystem::remove(folder / "run" / "observations_true_ids.csv");
+  const RunResult placed = replay(world, folder / "run", folder / "replay");
+  const RunDetails details = score_details(folder / "replay", std::vector<std::string>{"ekf", "seif"}, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EstimatorScore& score = placed.summary.score.estimators[i];
+    EXPECT_EQ(score.matched_by, MatchedBy::place);
+    EXPECT_EQ(score.landmarks.rmse, voted.summary.score.estimators[i].landmarks.rmse) << score.name;
+    EXPECT_EQ(score.landmarks_spurious, 0) << score.name;
+    ASSERT_TRUE(score.by_place);
+    EXPECT_EQ(score.by_place->missed, 0) << score.name;
+    EXPECT_EQ(details.estimators[i].map->missed, 0) << score.name;
+    EXPECT_FALSE(score.associations_right);
+    EXPECT_FALSE(score.nees_landmark) << "what is near by definition has no NEES";
+    EXPECT_FALSE(details.estimators[i].landmarks_inside);
+  }
+  const auto summary = nlohmann::json::parse(read_file(folder / "replay" / "summary.json"));
+  EXPECT_EQ(summary["estimators"]["seif"]["landmarks_matched_by"], "place");
+  EXPECT_EQ(summary["estimators"]["seif"]["landmarks_missed"], 0);
+  EXPECT_NE(scoreboard(placed.summary).find("* Landmarks of seif matched by place: 12 matched, 0 missed"),
+            std::string::npos)
+      << scoreboard(placed.summary);
+}
+
+TEST(NamelessRun, WhoseMapFitsNowhereHasNoScoreOfIt) {
+  const TemporaryFolder folder;
+  const worlds::World world = nameless_world();
+  run_live(world, folder / "run");
+  for (const char* file : {"observations_true_ids.csv", "truth.csv"})
+    std::filesystem::remove(folder / "run" / file);
+  write_file(folder / "run" / "landmarks.csv", "landmark,x,y\n0,0,0\n1,100,0\n2,0,150\n");
+  const RunResult run = replay(world, folder / "run", folder / "replay");
+  for (const EstimatorScore& score : run.summary.score.estimators) {
+    EXPECT_EQ(score.matched_by, MatchedBy::nothing);
+    EXPECT_GT(score.landmarks_mapped, 10);
+    EXPECT_FALSE(score.landmarks.rmse || score.landmarks.rmse_aligned || score.landmarks_spurious);
+  }
+  EXPECT_NE(scoreboard(run.summary).find("The map of seif has no score"), std::string::npos);
 }
 
 TEST(NamelessRun, IsReplayedToTheSameBytes) {
