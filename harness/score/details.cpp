@@ -21,6 +21,7 @@ struct RunFacts {
   std::optional<std::vector<TrueLandmark>> landmarks;  // sorted by id
   std::optional<std::set<seif::LandmarkId>> seen;      // the world's landmarks that appear in any scan
   std::vector<std::size_t> closures;
+  bool frame_is_known = false;  // as in RunScore
 };
 
 RunFacts read_facts(const std::filesystem::path& folder, double away) {
@@ -38,6 +39,7 @@ RunFacts read_facts(const std::filesystem::path& folder, double away) {
   }
   if (seen.is_known()) facts.seen = std::move(all);
   facts.closures = loop_closures(scans, away);
+  facts.frame_is_known = frame_is_known(folder);
   return facts;
 }
 
@@ -45,6 +47,7 @@ void score_trajectory(std::span<const PosePair> poses, const DetailChoices& choi
                       EstimatorDetails& details) {
   for (const double distance : choices.distances)
     details.rpe.push_back(relative_pose_error_along_path(poses, distance));
+  if (!facts.frame_is_known) return;
   std::vector<double> errors;
   for (const PosePair& pair : poses)
     errors.push_back(std::hypot(pair.est_pose.x - pair.true_pose.x, pair.est_pose.y - pair.true_pose.y));
@@ -62,7 +65,8 @@ void score_map(const std::filesystem::path& folder, std::span<const PosePair> po
   details.map->duplicate += scored.duplicates;
   const std::vector<PointPair> points = pair_landmarks(map, *facts.landmarks);
   if (!poses.empty()) details.landmark_rmse_from_robot = rmse_from_robot(points, poses.back());
-  if (scored.matched_by == MatchedBy::place) return;  // near by definition, so their NEES says nothing
+  // Where they were found by place they are near by definition, so their NEES says nothing.
+  if (scored.matched_by == MatchedBy::place || !facts.frame_is_known) return;
   std::vector<double> values;
   for (const MapRecord& landmark : map) {
     const std::vector<PointPair> pair = pair_landmarks({&landmark, 1}, *facts.landmarks);
@@ -101,7 +105,8 @@ RunDetails score_details(const std::filesystem::path& folder, std::span<const st
     const std::vector<PosePair> poses = read_poses(folder, name);
     score_trajectory(poses, choices, facts, details);
     score_map(folder, poses, facts, details);
-    score_consistency(choices.consistency.empty() ? folder : choices.consistency, details);
+    if (facts.frame_is_known)
+      score_consistency(choices.consistency.empty() ? folder : choices.consistency, details);
     run.estimators.push_back(std::move(details));
   }
   return run;

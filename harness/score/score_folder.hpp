@@ -60,12 +60,21 @@ struct RunScore {
   EstimatorScore odometry;  // dead reckoning: its trajectory only
   std::vector<EstimatorScore> estimators;
   bool landmarks_are_known = false;  // the true ones
+  bool poses_are_known = false;      // the true ones, at some time
+  /// The start estimate can be compared with the truth. Otherwise nobody knows how the estimators' frame lies in
+  /// that of the truth: errors without alignment, and the NEES, are not available.
+  bool frame_is_known = false;
+  int times_without_truth = 0;            // [-] scoring times at which the true pose is not known
+  std::optional<double> without_truth_t;  // [s] the first of these times
 };
 
 // These functions throw BadInput if a file is missing or broken.
 
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval);
+
+/// True if the true pose is known at the start of a log, or at its first event.
+bool frame_is_known(const std::filesystem::path& folder);
 
 /// The poses of `NAME.tum`.
 std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name);

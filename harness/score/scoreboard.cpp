@@ -75,6 +75,19 @@ std::string left_out_line(const Summary& summary) {
   return text;
 }
 
+/// What the log does not say of the true poses, and what has no score for that reason; empty if it says all.
+std::string truth_lines(const Summary& summary) {
+  const RunScore& score = summary.score;
+  std::string text;
+  if (score.poses_are_known && score.times_without_truth > 0)
+    text +=
+        fmt::format("The true pose is not known at {} scoring times, the first at {} s: they have no NEES\n",
+                    score.times_without_truth, score.without_truth_t.value_or(0.0));
+  if (!score.frame_is_known && (score.poses_are_known || score.landmarks_are_known))
+    text += "The true pose at the start is not known: there are no errors without alignment, and no NEES\n";
+  return text.empty() ? text : '\n' + text;
+}
+
 /// The estimators that diverged, and those whose covariance was not positive definite; empty if there are
 /// none.
 std::string divergence_lines(const Summary& summary) {
@@ -167,8 +180,8 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + left_out_line(summary) + matching_lines(summary) + gate_line(summary) +
-          association_lines(summary) + divergence_lines(summary);
+  text += log_line(summary) + left_out_line(summary) + truth_lines(summary) + matching_lines(summary) +
+          gate_line(summary) + association_lines(summary) + divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

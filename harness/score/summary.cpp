@@ -176,6 +176,8 @@ std::string to_json(const Summary& summary) {
     for (const auto& [name, count] : summary.left_out) json["left_out"][name] = count;
     json["left_out"]["first_s"] = number(summary.left_out_t);
   }
+  json["true_frame_known"] = summary.score.frame_is_known;
+  json["scoring_times_without_truth"] = summary.score.times_without_truth;
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();
