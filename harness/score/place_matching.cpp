@@ -147,8 +147,7 @@ std::vector<IndexPair> PlaceMatcher::nearest_pairs(const seif::Pose2& T_true_est
   std::vector<IndexPair> candidates;
   for (const Index i : of) {
     const auto& found = true_.near(T_true_est * est(i), spacing_, 1);
-    if (!found.empty())
-      candidates.push_back({found.front().distance, i, static_cast<Index>(found.front().landmark)});
+    if (!found.empty()) candidates.push_back({found.front().distance, i, found.front().index});
   }
   return one_to_one(std::move(candidates), map_.size(), true_.points().size());
 }
@@ -208,7 +207,7 @@ Match PlaceMatcher::match(const seif::Pose2& T_true_est) const {
     const Vector2d p = T_true_est * est(i);
     constexpr Index most = 4;
     for (const LandmarkPlaces::Near& found : true_.near(p, spacing_, most)) {
-      const auto j = static_cast<Index>(found.landmark);
+      const Index j = found.index;
       const Vector2d error = p - truth(j);
       if (const double squared = error.dot(C.llt().solve(error)); squared <= gate)
         candidates.push_back({squared, i, j});
@@ -237,7 +236,7 @@ std::vector<TruePair> PlaceMatcher::true_pairs() const {
   std::vector<TruePair> pairs;
   for (Index i = 0; i < true_.points().size(); ++i) {
     for (const LandmarkPlaces::Near& found : true_.near(truth(i), everywhere, true_neighbours)) {
-      const auto j = static_cast<Index>(found.landmark);
+      const Index j = found.index;
       if (j != i) pairs.push_back({found.distance, i, j});
     }
   }

@@ -9,7 +9,6 @@
 
 #include "harness/score/true_names.hpp"
 #include "harness/stream/log_stream.hpp"
-#include "seif/models.hpp"
 
 namespace harness {
 
@@ -45,8 +44,9 @@ seif::LandmarkId SeenLandmarks::by_place(const seif::Observation& observation,
     const std::optional<double> spacing = places_->spacing();
     radius_ = spacing ? 0.5 * *spacing : lone_radius;
   }
-  const Eigen::Vector2d p =
-      seif::invert_observation(T_world_robot, log_.T_robot_sensor, observation).p_world_landmark;
+  const Eigen::Vector2d p_sensor =
+      observation.range * Eigen::Vector2d(std::cos(observation.bearing), std::sin(observation.bearing));
+  const Eigen::Vector2d p = T_world_robot * (log_.T_robot_sensor * p_sensor);
   const double across = observation.range * observation.range * observation.covariance(1, 1);
   const double sd = std::sqrt(std::max(observation.covariance(0, 0), across));
   const auto found = places_->nearest(p, std::min(radius_, floor_radius + sigmas * sd));
