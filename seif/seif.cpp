@@ -54,7 +54,13 @@ void Seif::make_keeper(const Pose2& start) {
   throw std::invalid_argument("mean_recovery: tree, multilevel or exact");
 }
 
+void Seif::motion_update(const Odometry& odometry) {
+  factor_is_current_ = false;
+  InformationFilter::motion_update(odometry);
+}
+
 void Seif::measurement_update(const Scan& scan, const StageDone& done) {
+  factor_is_current_ = false;
   state_.begin_scan();
   activate_known(scan);
   if (!keeper_->before_information(state_)) throw NumericalFailure("mean recovery", scan.t);
@@ -77,6 +83,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   done(Stage::sparsification);
 
   if (!keeper_->end_update(state_)) throw NumericalFailure("mean recovery", scan.t);  // eq. (37)
+  factor_is_current_ = true;
   done(Stage::mean_recovery);
 }
 
@@ -250,6 +257,18 @@ void Seif::sparsify(double t) {
   const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
   if (!anchoring || !keeper_->deactivate(state_, to_drop_)) throw NumericalFailure("sparsification", t);
   anchoring_ += *anchoring;
+}
+
+/// (L L')^-1 in the rows of the pose, the first ones of the window.
+std::optional<Eigen::Matrix3d> Seif::pose_covariance() const {
+  const WindowFactor* window = keeper_->window_factor();
+  if (window == nullptr || !factor_is_current_) return std::nullopt;
+  if (columns_.rows() < window->size) columns_.resize(2 * window->size, 3);
+  auto Y = columns_.topRows(window->size);
+  Y.setZero();
+  Y.topRows<3>().setIdentity();
+  window->L().triangularView<Eigen::Lower>().solveInPlace(Y);
+  return Eigen::Matrix3d(Y.transpose() * Y);
 }
 
 std::size_t Seif::memory_bytes() const { return state_.memory_bytes() + keeper_->memory_bytes(); }

@@ -64,7 +64,10 @@ class Seif final : public InformationFilter {
   Seif(const Seif&) = delete;  // its local belief refers to its state
   Seif& operator=(const Seif&) = delete;
 
+  void motion_update(const Odometry& odometry) override;
   void measurement_update(const Scan& scan, const StageDone& done) override;
+  /// With MeanRecovery::tree, from a scan to the next motion: what the tree's last solution gives.
+  std::optional<Eigen::Matrix3d> pose_covariance() const override;
   Counts counts() const override;
   std::size_t memory_bytes() const override;
   /// With MeanRecovery::tree; null otherwise.
@@ -96,11 +99,12 @@ class Seif final : public InformationFilter {
   std::int64_t gated_ = 0, weakened_ = 0;
   std::optional<double> innovation_;                      // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;                            // [-]
+  bool factor_is_current_ = false;                        // of the window: nothing has moved since the scan
   Eigen::Matrix<double, Eigen::Dynamic, 2> J_by_factor_;  // scratch (w x 2), with room to grow
-  Eigen::Matrix<double, Eigen::Dynamic, 3> columns_;      // scratch (w x 3), with room to grow
-  bool is_curved_ = false;                                // second-order terms matter in the latest scan
-  std::vector<ObservationFactor> factors_, again_;        // of the latest scan
-  std::vector<int> seen_, to_drop_;                       // slots; kept so that no update allocates
+  mutable Eigen::Matrix<double, Eigen::Dynamic, 3> columns_;  // scratch (w x 3), with room to grow
+  bool is_curved_ = false;                                    // second-order terms matter in the latest scan
+  std::vector<ObservationFactor> factors_, again_;            // of the latest scan
+  std::vector<int> seen_, to_drop_;                           // slots; kept so that no update allocates
   std::vector<std::pair<int, int>> equal_slots_;
 };
 

@@ -125,7 +125,9 @@ void compare_details(std::span<const ComparedRun> runs, EstimatorComparison& est
   estimator.nis_scan = mean([](const EstimatorDetails& details) { return details.rebuilt.scans.nis; });
   estimator.nis_scan_inside =
       value_of(mean([](const EstimatorDetails& details) { return details.rebuilt.scans.inside; }));
-  estimator.landmarks_missed = mean_count(&MapCounts::missed);
+  estimator.landmarks_missed = value_of(mean([](const EstimatorDetails& details) {
+    return details.map ? std::optional<double>(details.map->missed) : std::nullopt;
+  }));
   estimator.landmarks_spurious = mean_count(&MapCounts::spurious);
   estimator.landmarks_duplicate = mean_count(&MapCounts::duplicate);
 }

@@ -28,6 +28,13 @@ Eigen::Matrix<double, Size, Size> upper_triangle(const RowReader& rows, std::siz
   return matrix;
 }
 
+/// Symmetric to the bit. Of a covariance only the upper triangle is recorded, and a replay must use the same
+/// numbers.
+template <int Size>
+Eigen::Matrix<double, Size, Size> symmetric(const Eigen::Matrix<double, Size, Size>& covariance) {
+  return 0.5 * (covariance + covariance.transpose());
+}
+
 /// The covariance from the information matrix, or from R, where R' R is the information matrix.
 template <int Size>
 Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size_t cell,
@@ -38,8 +45,7 @@ Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size
   if (is_square_root) Omega = upper.transpose() * upper;
   const Eigen::LLT<Matrix> llt(Omega);
   if (llt.info() != Eigen::Success) rows.fail(cell, "information: is not positive definite");
-  Matrix covariance = llt.solve(Matrix::Identity());
-  covariance = (0.5 * (covariance + covariance.transpose())).eval();
+  const Matrix covariance = symmetric<Size>(llt.solve(Matrix::Identity()));
   if (!covariance.allFinite()) rows.fail(cell, "information: has no inverse");
   return covariance;
 }
@@ -49,7 +55,7 @@ Eigen::Matrix<double, Size, Size> covariance_of(const RowReader& rows, std::size
 Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double theta) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // R_begin_end
   R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(theta).toRotationMatrix();
-  return R * covariance * R.transpose();
+  return symmetric<3>(R * covariance * R.transpose());
 }
 
 bool is_vertex(std::string_view word) { return word.starts_with("VERTEX") || word == "FIX"; }
@@ -59,9 +65,8 @@ bool is_isam_motion(std::string_view word) { return word == "ODOMETRY" || word =
 seif::Observation observation_of(const GraphEdge& edge) {
   const seif::PredictedObservation seen = seif::predict_observation({}, {}, edge.p_from_landmark);
   const Eigen::Matrix2d& J = seen.J_wrt_landmark;
-  const Eigen::Matrix2d covariance = J * edge.point_covariance * J.transpose();
   return {static_cast<seif::LandmarkId>(edge.to), seen.z(0), seen.z(1),
-          0.5 * (covariance + covariance.transpose())};
+          symmetric<2>(J * edge.point_covariance * J.transpose())};
 }
 
 }  // namespace

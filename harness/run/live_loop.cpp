@@ -167,6 +167,7 @@ void LiveLoop::take(const ScanEvent& event) {
 void LiveLoop::note_truth(const std::optional<TruePose>& truth) {
   last_true_pose_.reset();
   if (truth) last_true_pose_ = truth->T_world_robot;
+  if (counts_.events == 1) frame_is_known_ = log_.true_start || truth;
 }
 
 void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
@@ -195,7 +196,7 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   record.times = times_[index];
   if (!estimator.filter->needs_names()) {
     record.associations = estimator.filter->associations();
-    true_names_[index].add(*record.associations, event.true_ids);
+    true_names_[index].add(*record.associations, event);
   }
   times_[index] = {};
   for (RunListener* listener : listeners_) listener->update(index, record);
@@ -250,6 +251,7 @@ ConsistencyRecord LiveLoop::consistency_of(std::size_t index) const {
   record.t = counts_.t;
   record.landmarks_mapped = static_cast<int>(map.size());
   record.memory_bytes = static_cast<std::int64_t>(estimator.filter->memory_bytes());
+  if (!frame_is_known_) return record;
   const std::optional<seif::MarginalCovariances> belief = estimator.filter->marginal_covariances(sampled_ids);
   if (!belief) return record;
   if (last_true_pose_)

@@ -106,6 +106,7 @@ class LiveLoop {
   std::int64_t intervals_scored_ = 0;          // [-] since the start
   std::optional<double> last_scoring_t_;       // [s]
   std::optional<seif::Pose2> last_true_pose_;  // at the last event
+  bool frame_is_known_ = false;                // the true pose is known at the start, or at the first event
   std::vector<UpdateTimes> times_;             // for each estimator, since the last scan
   std::vector<std::int64_t> blocks_touched_;   // [-] for each estimator, up to the last scan
   std::vector<TrueNames> true_names_;          // for each estimator that names landmarks by itself

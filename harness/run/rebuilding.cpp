@@ -75,7 +75,7 @@ void RebuiltConsistency::note_truth(const std::optional<TruePose>& truth) {
 
 void RebuiltConsistency::scan(const ScanEvent& event) {
   note_truth(event.truth);
-  true_ids_ = event.true_ids;
+  latest_ = event;
   if (!std::exchange(scan_is_due_, false)) return;
   for (std::size_t i = 0; i < gathered_.size(); ++i) {
     const LiveEstimator& estimator = believers_.estimators[i];
@@ -85,7 +85,7 @@ void RebuiltConsistency::scan(const ScanEvent& event) {
 }
 
 void RebuiltConsistency::update(std::size_t estimator, const UpdateRecord& record) {
-  if (record.associations) true_names_.at(estimator).add(*record.associations, true_ids_);
+  if (record.associations) true_names_.at(estimator).add(*record.associations, latest_);
 }
 
 void RebuiltConsistency::add_innovations(const LiveEstimator& estimator, const seif::Scan& scan,

@@ -51,10 +51,10 @@ class RebuiltConsistency final : public RunListener {
   const LogDescription& log_;
   std::size_t sample_;  // [-]
   bool scan_is_due_ = false;
-  std::optional<seif::Pose2> true_pose_;    // at the last event
-  std::vector<seif::LandmarkId> true_ids_;  // of the latest scan
-  std::vector<TrueNames> true_names_;       // one for each estimator
-  std::vector<Gathered> gathered_;          // one for each estimator
+  std::optional<seif::Pose2> true_pose_;  // at the last event
+  ScanEvent latest_;                      // the latest scan
+  std::vector<TrueNames> true_names_;     // one for each estimator
+  std::vector<Gathered> gathered_;        // one for each estimator
 };
 
 /// The replay differs from the recorded run.

@@ -48,7 +48,7 @@ void add_rebuilt(const RebuiltScore& rebuilt, Json& json) {
 
 void add_estimator(const RunDetails& run, const EstimatorDetails& details, Json& json) {
   const std::optional<MapCounts>& map = details.map;
-  json["landmarks_missed"] = map ? Json(map->missed) : Json(nullptr);
+  json["landmarks_missed"] = map && map->missed ? Json(*map->missed) : Json(nullptr);
   json["landmarks_duplicate"] = map ? Json(map->duplicate) : Json(nullptr);
   json["landmark_rmse_from_robot_m"] = number_or_null(details.landmark_rmse_from_robot);
   json["nees_pose_inside"] = number_or_null(details.pose_inside);
@@ -80,7 +80,7 @@ std::string band_cell(const std::optional<ConfidenceInterval>& band) {
 
 TextRow map_row(const EstimatorDetails& details) {
   return {details.name,
-          count_cell(details.map, &MapCounts::missed),
+          details.map && details.map->missed ? fmt::format("{}", *details.map->missed) : "-",
           count_cell(details.map, &MapCounts::spurious),
           count_cell(details.map, &MapCounts::duplicate),
           number_cell(details.landmark_rmse_from_robot, 3),

@@ -1,11 +1,13 @@
 #include "harness/score/from_reference.hpp"
 
+#include "harness/score/true_names.hpp"
+
 namespace harness {
 
 DistanceFromReference distance_from_reference(const std::filesystem::path& folder, const std::string& name,
                                               const ReferenceEstimate& reference) {
   DistanceFromReference distance;
-  distance.landmarks = score_points(pair_landmarks(read_map(folder, name), reference.map));
+  distance.landmarks = score_points(pair_landmarks(read_scored_map(folder, name).landmarks, reference.map));
   std::vector<PosePair> poses;
   auto at = reference.trajectory.begin();
   for (const TimedPose& pose : read_trajectory(folder, name)) {

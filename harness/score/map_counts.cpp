@@ -17,7 +17,7 @@ const TrueLandmark* find(std::span<const TrueLandmark> truth, seif::LandmarkId i
 }  // namespace
 
 MapCounts count_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth,
-                          const std::set<seif::LandmarkId>& seen) {
+                          const std::optional<std::set<seif::LandmarkId>>& seen) {
   std::set<seif::LandmarkId> mapped;
   std::vector<Eigen::Vector2d> est_points;
   std::vector<Eigen::Vector2d> true_points;
@@ -41,8 +41,10 @@ MapCounts count_landmarks(std::span<const MapRecord> map, std::span<const TrueLa
         true_points, [&](const Eigen::Vector2d& p) { return (p - p_true).norm() <= duplicate_radius; });
   };
   counts.duplicate = static_cast<int>(std::ranges::count_if(spurious, is_duplicate));
-  counts.missed = static_cast<int>(
-      std::ranges::count_if(seen, [&](seif::LandmarkId id) { return !mapped.contains(id); }));
+  if (seen) {
+    const auto is_missed = [&](seif::LandmarkId id) { return !mapped.contains(id); };
+    counts.missed = static_cast<int>(std::ranges::count_if(*seen, is_missed));
+  }
   return counts;
 }
 

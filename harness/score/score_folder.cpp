@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <variant>
 
 #include "harness/files/csv_reader.hpp"
 #include "harness/recording/step_table.hpp"
-#include "harness/score/true_names.hpp"
+#include "harness/score/seen_landmarks.hpp"
 #include "harness/statistics/divergence.hpp"
 #include "harness/stream/log_stream.hpp"
 
@@ -18,20 +19,27 @@ namespace {
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t most_degrees = 1'000'000;  // [-] of one scan
 
-void score_trajectory(const std::filesystem::path& folder, double rpe_interval, EstimatorScore& score) {
+void score_trajectory(const std::filesystem::path& folder, double rpe_interval, bool is_frame_known,
+                      EstimatorScore& score) {
   const std::vector<PosePair> poses = read_poses(folder, score.name);
   score.trajectory = absolute_trajectory_error(poses);
+  if (!is_frame_known) score.trajectory.rmse.reset();
   score.rpe = relative_pose_error(poses, rpe_interval);
 }
 
-void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, bool is_known,
+/// `truth`: the true landmarks, if `run` knows them.
+void score_map(const std::filesystem::path& folder, std::span<const TrueLandmark> truth, const RunScore& run,
                EstimatorScore& score) {
   const ScoredMap map = read_scored_map(folder, score.name);
   const int mapped = static_cast<int>(map.landmarks.size()) + map.duplicates;
   score.landmarks_mapped = mapped;
-  if (!is_known) return;
+  score.matched_by = map.matched_by;
+  if (!run.landmarks_are_known || map.matched_by == MatchedBy::nothing) return;
+  if (map.matched_by == MatchedBy::place)
+    score.by_place = count_landmarks(map.landmarks, truth, read_seen_landmarks(folder));
   const std::vector<PointPair> points = pair_landmarks(map.landmarks, truth);
   score.landmarks = score_points(points);
+  if (!run.frame_is_known) score.landmarks.rmse.reset();
   score.landmarks_spurious = mapped - static_cast<int>(points.size());
 }
 
@@ -107,28 +115,47 @@ struct Mean {
   std::optional<double> mean() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
 };
 
-void score_consistency(const std::filesystem::path& folder, EstimatorScore& score) {
+/// The scoring times of an estimator at which the true pose is not known.
+struct TimesWithoutTruth {
+  int count = 0;                  // [-]
+  std::optional<double> first_t;  // [s]
+
+  void add(double t) {
+    ++count;
+    if (!first_t) first_t = t;
+  }
+};
+
+TimesWithoutTruth score_consistency(const std::filesystem::path& folder, const RunScore& run,
+                                    EstimatorScore& score) {
   CsvReader rows(
       folder / (score.name + "_consistency.csv"),
       {{"t", "nees_pose", "nees_landmark", "landmarks_scored", "landmarks_mapped", "memory_bytes"}, {}});
+  std::optional<TruthReader> truth;
+  if (run.poses_are_known) truth.emplace(folder);
+  TimesWithoutTruth without_truth;
   Mean pose;
   Mean landmark;
   while (rows.next()) {
+    const double t = rows.number(0);
+    score.memory_bytes = rows.integer(5, 0, most);
+    const bool is_truth_known = truth && truth->at(t);
+    if (!is_truth_known) without_truth.add(t);
+    if (!run.frame_is_known) continue;
     pose.add(rows, 1);
     landmark.add(rows, 2);
     // An empty NEES is the belief's fault only if the truth is known.
-    if (rows.is_empty(1) && score.trajectory.rmse) {
+    if (rows.is_empty(1) && is_truth_known) {
       ++score.improper_beliefs;
-      if (!score.improper_t) score.improper_t = rows.number(0);
+      if (!score.improper_t) score.improper_t = t;
     }
-    if (pose.last.value_or(0.0) > highest_nees_pose() && !score.diverged_nees_t)
-      score.diverged_nees_t = rows.number(0);
-    score.memory_bytes = rows.integer(5, 0, most);
+    if (pose.last.value_or(0.0) > highest_nees_pose() && !score.diverged_nees_t) score.diverged_nees_t = t;
   }
   score.nees_pose = pose.mean();
   score.nees_pose_final = pose.last;
   score.nees_landmark = landmark.mean();
   score.nees_landmark_final = landmark.last;
+  return without_truth;
 }
 
 }  // namespace
@@ -182,23 +209,36 @@ std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<
   return points;
 }
 
+bool frame_is_known(const std::filesystem::path& folder) {
+  LogStream stream(folder);
+  if (stream.description().true_start) return true;
+  Event first;
+  return stream.next(first) && std::visit([](const auto& event) { return event.truth.has_value(); }, first);
+}
+
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval) {
-  const bool landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
-  const std::vector<TrueLandmark> landmarks =
-      landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
   RunScore run;
+  run.landmarks_are_known = std::filesystem::exists(folder / "landmarks.csv");
+  const std::vector<TrueLandmark> landmarks =
+      run.landmarks_are_known ? read_landmarks(folder / "landmarks.csv") : std::vector<TrueLandmark>{};
+  run.poses_are_known = std::filesystem::exists(folder / "truth.csv");
+  run.frame_is_known = run.poses_are_known && frame_is_known(folder);
   run.odometry.name = "odometry";
-  score_trajectory(folder, rpe_interval, run.odometry);
+  score_trajectory(folder, rpe_interval, run.frame_is_known, run.odometry);
   for (const std::string& name : estimators) {
     EstimatorScore score;
     score.name = name;
-    score_trajectory(folder, rpe_interval, score);
-    score_map(folder, landmarks, landmarks_are_known, score);
+    score_trajectory(folder, rpe_interval, run.frame_is_known, score);
+    score_map(folder, landmarks, run, score);
     score_associations(folder, score);
     score_steps(folder, score);
     score_times(folder, score);
-    score_consistency(folder, score);
+    const TimesWithoutTruth without_truth = score_consistency(folder, run, score);
+    if (without_truth.count > run.times_without_truth) {
+      run.times_without_truth = without_truth.count;
+      run.without_truth_t = without_truth.first_t;
+    }
     run.estimators.push_back(std::move(score));
   }
   return run;

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/score/map_counts.hpp"
 #include "harness/score/score.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/stream/run_listener.hpp"
 
 namespace harness {
@@ -19,6 +21,8 @@ struct EstimatorScore {
   std::string name;
   std::optional<int> landmarks_mapped;        // [-]
   std::optional<int> landmarks_spurious;      // [-] landmarks in the map that the world does not have
+  MatchedBy matched_by = MatchedBy::id;       // how the landmarks of the map were found in the world
+  std::optional<MapCounts> by_place;          // [-] if they were found by place, and the world is known
   PointScore landmarks;                       // [m]
   PointScore trajectory;                      // [m] absolute trajectory error
   RelativePoseError rpe;                      // [m, rad]
@@ -55,12 +59,22 @@ struct TimedPose {
 struct RunScore {
   EstimatorScore odometry;  // dead reckoning: its trajectory only
   std::vector<EstimatorScore> estimators;
+  bool landmarks_are_known = false;  // the true ones
+  bool poses_are_known = false;      // the true ones, at some time
+  /// The start estimate can be compared with the truth. Otherwise nobody knows how the estimators' frame lies in
+  /// that of the truth: errors without alignment, and the NEES, are not available.
+  bool frame_is_known = false;
+  int times_without_truth = 0;            // [-] scoring times at which the true pose is not known
+  std::optional<double> without_truth_t;  // [s] the first of these times
 };
 
 // These functions throw BadInput if a file is missing or broken.
 
 RunScore score_folder(const std::filesystem::path& folder, std::span<const std::string> estimators,
                       double rpe_interval);
+
+/// True if the true pose is known at the start of a log, or at its first event.
+bool frame_is_known(const std::filesystem::path& folder);
 
 /// The poses of `NAME.tum`.
 std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name);

@@ -34,7 +34,7 @@ std::optional<double> part(const std::optional<Percentiles>& values, double Perc
 
 TextRow accuracy_row(const EstimatorScore& score) {
   return {score.name,
-          count_text(score.landmarks_mapped),
+          count_text(score.landmarks_mapped) + (score.by_place ? " *" : ""),
           number(score.landmarks.rmse, 3),
           number(score.landmarks.rmse_aligned, 3),
           number(score.trajectory.rmse, 3),
@@ -75,6 +75,19 @@ std::string left_out_line(const Summary& summary) {
   return text;
 }
 
+/// What the log does not say of the true poses, and what has no score for that reason; empty if it says all.
+std::string truth_lines(const Summary& summary) {
+  const RunScore& score = summary.score;
+  std::string text;
+  if (score.poses_are_known && score.times_without_truth > 0)
+    text +=
+        fmt::format("The true pose is not known at {} scoring times, the first at {} s: they have no NEES\n",
+                    score.times_without_truth, score.without_truth_t.value_or(0.0));
+  if (!score.frame_is_known && (score.poses_are_known || score.landmarks_are_known))
+    text += "The true pose at the start is not known: there are no errors without alignment, and no NEES\n";
+  return text.empty() ? text : '\n' + text;
+}
+
 /// The estimators that diverged, and those whose covariance was not positive definite; empty if there are
 /// none.
 std::string divergence_lines(const Summary& summary) {
@@ -108,6 +121,27 @@ std::string count_line(const Summary& summary, std::string_view what,
 std::string gate_line(const Summary& summary) {
   return count_line(summary, "Observations left out by the gate", &EstimatorScore::gated) +
          count_line(summary, "Observations that counted less", &EstimatorScore::weakened);
+}
+
+/// How the landmarks of an estimator with names of its own were found in the world, where that is not
+/// recorded; empty without such an estimator.
+std::string matching_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    if (score.by_place) {
+      const MapCounts& map = *score.by_place;
+      const std::string missed = map.missed ? fmt::format("{} missed, ", *map.missed) : "";
+      text += fmt::format(
+          "\n* Landmarks of {} matched by place: {} matched, {}{} spurious, {} of them duplicate", score.name,
+          score.landmarks_mapped.value_or(0) - map.spurious, missed, map.spurious, map.duplicate);
+    } else if (score.matched_by == MatchedBy::nothing && summary.score.landmarks_are_known) {
+      text += fmt::format(
+          "\nThe map of {} has no score: its names are its own, and its place among the true landmarks is "
+          "not clear",
+          score.name);
+    }
+  }
+  return text.empty() ? text : text + '\n';
 }
 
 /// The associations of the estimators that name landmarks by themselves; empty without such an estimator.
@@ -146,8 +180,8 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + left_out_line(summary) + gate_line(summary) + association_lines(summary) +
-          divergence_lines(summary);
+  text += log_line(summary) + left_out_line(summary) + truth_lines(summary) + matching_lines(summary) +
+          gate_line(summary) + association_lines(summary) + divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

@@ -46,10 +46,29 @@ void add_trajectory(Json& json, const EstimatorScore& score) {
   json["rpe_rot_rad"] = number(score.rpe.rotation);
 }
 
+Json matched_by(MatchedBy how) {
+  switch (how) {
+    case MatchedBy::id:
+      return "id";
+    case MatchedBy::vote:
+      return "vote";
+    case MatchedBy::place:
+      return "place";
+    case MatchedBy::nothing:
+      break;
+  }
+  return nullptr;
+}
+
 Json estimator(const EstimatorScore& score, const std::string& failure) {
   Json json;
   json["landmarks_mapped"] = count(score.landmarks_mapped);
   json["landmarks_spurious"] = count(score.landmarks_spurious);
+  json["landmarks_matched_by"] = score.landmarks_mapped ? matched_by(score.matched_by) : Json(nullptr);
+  if (score.by_place) {
+    json["landmarks_missed"] = count(score.by_place->missed);
+    json["landmarks_duplicate"] = score.by_place->duplicate;
+  }
   json["landmark_rmse_m"] = number(score.landmarks.rmse);
   json["landmark_rmse_aligned_m"] = number(score.landmarks.rmse_aligned);
   add_trajectory(json, score);
@@ -167,6 +186,8 @@ std::string to_json(const Summary& summary) {
     for (const auto& [name, count] : summary.left_out) json["left_out"][name] = count;
     json["left_out"]["first_s"] = number(summary.left_out_t);
   }
+  json["true_frame_known"] = summary.score.frame_is_known;
+  json["scoring_times_without_truth"] = summary.score.times_without_truth;
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();

@@ -38,6 +38,23 @@ TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
   }
 }
 
+// By the tree in constant time, as the whole belief has it: also after the sparsifications of the drive.
+TEST(Seif, KnowsTheCovarianceOfItsPoseAfterAScan) {
+  RingDrive drive(60, 5);
+  Seif filter(drive.setup(), {});
+  EXPECT_FALSE(filter.pose_covariance());
+  for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) {
+    drive.step(filter);
+    const Eigen::Matrix3d P = filter.pose_covariance().value();
+    const Eigen::Matrix3d expected = filter.marginal_covariances({})->pose;
+    ASSERT_LT((P - expected).norm(), 1e-6 * expected.norm()) << "step " << k;
+    ASSERT_EQ(P, P.transpose());
+  }
+  drive.advance();
+  filter.motion_update(drive.odometry());
+  EXPECT_FALSE(filter.pose_covariance()) << "a motion was taken in since";
+}
+
 // Holds for every mean recovery.
 TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
   if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
@@ -45,12 +62,16 @@ TEST(Seif, AllocatesNothingOnceTheMapIsBuilt) {
     RingDrive drive(300, 4);
     Seif filter(drive.setup(), {.mean_recovery = mean});
     // Several rounds, until every message of the tree has once had its largest size.
-    for (int k = 0; k < 6 * drive.steps_for_a_round(); ++k) drive.step(filter);
+    for (int k = 0; k < 6 * drive.steps_for_a_round(); ++k) {
+      drive.step(filter);
+      ASSERT_EQ(filter.pose_covariance().has_value(), mean == MeanRecovery::tree);
+    }
     for (int k = 0; k < drive.steps_for_a_round(); ++k) {
       drive.advance();
       const long before = allocations();
       filter.motion_update(drive.odometry());
       filter.measurement_update(drive.scan(), test::ignore);
+      ASSERT_EQ(filter.pose_covariance().has_value(), mean == MeanRecovery::tree);
       ASSERT_EQ(allocations(), before) << "step " << k;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/score/details.hpp"
+#include "harness/score/scoreboard.hpp"
 #include "harness/score/true_names.hpp"
 
 namespace harness {
@@ -34,7 +36,10 @@ worlds::World nameless_world() {
 
 TEST(TrueNames, GoWithTheMajority) {
   TrueNames names;
-  names.add(std::vector<seif::LandmarkId>{0, 1, seif::no_landmark}, std::vector<seif::LandmarkId>{7, 8, 9});
+  ScanEvent event;
+  event.scan.observations.resize(3);
+  event.true_ids = {7, 8, 9};
+  names.add(std::vector<seif::LandmarkId>{0, 1, seif::no_landmark}, event);
   names.add(0, 7);
   names.add(0, 8);
   names.add(1, seif::no_landmark);
@@ -44,6 +49,16 @@ TEST(TrueNames, GoWithTheMajority) {
   EXPECT_EQ(names.of(1), seif::no_landmark) << "mostly false detections";
   EXPECT_EQ(names.of(5), seif::no_landmark) << "never given";
   EXPECT_EQ(names.right(), 2);
+}
+
+TEST(TrueNames, AreThoseThatTheObservationsBearIfNoOthersAreRecorded) {
+  TrueNames names;
+  ScanEvent event;
+  event.scan.observations = {{.landmark = 7}, {.landmark = seif::no_landmark}};
+  names.add(std::vector<seif::LandmarkId>{0, 1}, event);
+  EXPECT_EQ(names.of(0), 7);
+  EXPECT_EQ(names.of(1), seif::no_landmark);
+  EXPECT_EQ(names.right(), 1);
 }
 
 TEST(TrueNames, OfTwoThatAreOneThatWithMoreRightObservationsCounts) {
@@ -77,6 +92,31 @@ TEST(ReadAssociations, CountsRowByRow) {
   EXPECT_THROW(read_associations(folder.path(), "seif"), BadInput);
 }
 
+TEST(ReadAssociations, TakesTheNamesThatTheObservationsBear) {
+  const TemporaryFolder folder;
+  write_file(folder / "observations.csv", "t,landmark,range,bearing\n1,7,2,0\n1,8,3,0\n2,,,\n3,7,2,0\n");
+  write_file(folder / "seif_associations.csv", "t,landmark\n1,0\n1,\n2,\n3,0\n");
+  EXPECT_EQ(read_associations(folder.path(), "seif")->names.value().right(0), 2);
+  write_file(folder / "observations.csv", "t,landmark,range,bearing\n1,,2,0\n1,,3,0\n2,,,\n3,,2,0\n");
+  EXPECT_FALSE(read_associations(folder.path(), "seif")->names);
+}
+
+// The filter's own names 0, 1, 2, .. are also ids of the world, but of other landmarks.
+TEST(NamedRun, OfAFilterWithNamesOfItsOwnIsScoredByTheNamesThatTheObservationsBear) {
+  const TemporaryFolder folder;
+  worlds::World world = nameless_world();
+  world.landmark_sensor.ids = worlds::LandmarkIds::known;
+  world.landmark_sensor.false_detections = 0.0;
+  const RunResult run = run_live(world, folder / "run");
+  ASSERT_EQ(exit_code(run), 0) << run.error;
+  ASSERT_FALSE(std::filesystem::exists(folder / "run" / "observations_true_ids.csv"));
+  for (const EstimatorScore& score : run.summary.score.estimators) {
+    EXPECT_LT(score.landmarks.rmse_aligned.value(), 0.05) << score.name;
+    EXPECT_EQ(score.associations_right, 1.0) << score.name;
+    EXPECT_LT(score.nees_landmark_final.value(), 5.0) << score.name;
+  }
+}
+
 TEST(NamelessRun, IsScoredByWhatTheLandmarksTrulyAre) {
   const TemporaryFolder folder;
   const RunResult run = run_live(nameless_world(), folder / "run");
@@ -96,6 +136,50 @@ TEST(NamelessRun, IsScoredByWhatTheLandmarksTrulyAre) {
   }
   const auto summary = nlohmann::json::parse(read_file(folder / "run" / "summary.json"));
   EXPECT_GT(summary["estimators"]["seif"]["associations_right"], 0.99);
+}
+
+// As a log that somebody else has written: nobody recorded what the observations truly are.
+TEST(NamelessRun, WithoutTrueIdsIsScoredByPlace) {
+  const TemporaryFolder folder;
+  const worlds::World world = nameless_world();
+  const RunResult voted = run_live(world, folder / "run");
+  std::filesystem::remove(folder / "run" / "observations_true_ids.csv");
+  const RunResult placed = replay(world, folder / "run", folder / "replay");
+  const RunDetails details = score_details(folder / "replay", std::vector<std::string>{"ekf", "seif"}, {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EstimatorScore& score = placed.summary.score.estimators[i];
+    EXPECT_EQ(score.matched_by, MatchedBy::place);
+    EXPECT_EQ(score.landmarks.rmse, voted.summary.score.estimators[i].landmarks.rmse) << score.name;
+    EXPECT_EQ(score.landmarks_spurious, 0) << score.name;
+    ASSERT_TRUE(score.by_place);
+    EXPECT_EQ(score.by_place->missed, 0) << score.name;
+    EXPECT_EQ(details.estimators[i].map->missed, 0) << score.name;
+    EXPECT_FALSE(score.associations_right);
+    EXPECT_FALSE(score.nees_landmark) << "what is near by definition has no NEES";
+    EXPECT_FALSE(details.estimators[i].landmarks_inside);
+  }
+  const auto summary = nlohmann::json::parse(read_file(folder / "replay" / "summary.json"));
+  EXPECT_EQ(summary["estimators"]["seif"]["landmarks_matched_by"], "place");
+  EXPECT_EQ(summary["estimators"]["seif"]["landmarks_missed"], 0);
+  EXPECT_NE(scoreboard(placed.summary).find("* Landmarks of seif matched by place: 12 matched, 0 missed"),
+            std::string::npos)
+      << scoreboard(placed.summary);
+}
+
+TEST(NamelessRun, WhoseMapFitsNowhereHasNoScoreOfIt) {
+  const TemporaryFolder folder;
+  const worlds::World world = nameless_world();
+  run_live(world, folder / "run");
+  for (const char* file : {"observations_true_ids.csv", "truth.csv"})
+    std::filesystem::remove(folder / "run" / file);
+  write_file(folder / "run" / "landmarks.csv", "landmark,x,y\n0,0,0\n1,100,0\n2,0,150\n");
+  const RunResult run = replay(world, folder / "run", folder / "replay");
+  for (const EstimatorScore& score : run.summary.score.estimators) {
+    EXPECT_EQ(score.matched_by, MatchedBy::nothing);
+    EXPECT_GT(score.landmarks_mapped, 10);
+    EXPECT_FALSE(score.landmarks.rmse || score.landmarks.rmse_aligned || score.landmarks_spurious);
+  }
+  EXPECT_NE(scoreboard(run.summary).find("The map of seif has no score"), std::string::npos);
 }
 
 TEST(NamelessRun, IsReplayedToTheSameBytes) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "harness/score/loop_closure.hpp"
@@ -151,7 +152,7 @@ TEST(CountLandmarks, MatchesTheHandComputedCase) {
   // 3, which the map does not have, and entry 9 at no landmark.
   const std::vector<MapRecord> map = {
       {1, {10, 0}, {}}, {2, {14, 0}, {}}, {7, {14.3, 0.3}, {}}, {8, {10, 4}, {}}, {9, {5, 5}, {}}};
-  const MapCounts counts = count_landmarks(map, truth, {1, 2, 3});
+  const MapCounts counts = count_landmarks(map, truth, std::set<seif::LandmarkId>{1, 2, 3});
   EXPECT_EQ(counts.missed, 1) << "3 was seen; 5 never was";
   EXPECT_EQ(counts.spurious, 3);
   EXPECT_EQ(counts.duplicate, 1);
