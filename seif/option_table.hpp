@@ -70,6 +70,12 @@ class OptionTable {
     return *this;
   }
 
+  /// With this value of the option that was described last, observations need not name their landmarks.
+  OptionTable& without_names(std::string value) {
+    specs_.back().without_names = std::move(value);
+    return *this;
+  }
+
   const std::vector<OptionSpec>& specs() const { return specs_; }
 
   /// `options` holds a value of the right type for every key.

@@ -75,7 +75,9 @@ const OptionTable<AssociationChoice>& association_table() {
                                          {"joint", Association::joint}},
               "Which landmark an observation is of. known: the one that the observation names; nearest: for "
               "each observation alone, the nearest compatible one; joint: the largest set of pairs that are "
-              "compatible together. The last two ignore the names.")
+              "compatible together. The last two ignore the names. Where observations bear no names, known "
+              "means joint.")
+          .without_names("joint")
           .number(
               "match_probability", [](Choice& c) -> double& { return c.options.match_probability; },
               {1e-12, 0.5}, "With an association: the probability that a correct pair is rejected [-].")

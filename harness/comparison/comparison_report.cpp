@@ -1,6 +1,7 @@
 // A comparison as JSON and as tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -131,6 +132,17 @@ std::string failures(const ComparedRun& run) {
   return text;
 }
 
+/// The notes of all runs, each once.
+std::vector<std::string> notes_of(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  for (const ComparedRun& run : comparison.runs) {
+    for (const std::string& note : run.result.summary.notes) {
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    }
+  }
+  return notes;
+}
+
 }  // namespace
 
 std::string failures_of(const Comparison& comparison) {
@@ -169,6 +181,7 @@ std::string comparison_board(const Comparison& comparison) {
   std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
                                  comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
                                  text_table(consistency), text_table(cost), footnote(comparison.baseline));
+  for (const std::string& note : notes_of(comparison)) text += note + '\n';
   const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;
 }

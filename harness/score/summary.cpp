@@ -108,6 +108,7 @@ Summary parse_summary(std::istream& text) {
   const Json log = json.value("log", Json::object());
   for (const auto& [name, count] : log.items())
     summary.log_counts.emplace_back(name, count.get<std::int64_t>());
+  for (const Json& note : json.value("notes", Json::array())) summary.notes.push_back(note);
   read_left_out(json.value("left_out", Json::object()), summary);
   for (const auto& [name, score] : json.at("estimators").items()) {
     if (file_name_of(name) != name) throw BadInput(fmt::format("'{}' is no name of an estimator", name));
@@ -157,6 +158,7 @@ std::string to_json(const Summary& summary) {
     for (const auto& [name, count] : summary.left_out) json["left_out"][name] = count;
     json["left_out"]["first_s"] = number(summary.left_out_t);
   }
+  if (!summary.notes.empty()) json["notes"] = summary.notes;
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();
