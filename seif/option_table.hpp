@@ -47,6 +47,12 @@ class OptionTable {
     return *this;
   }
 
+  /// The number that was described last may not be larger than that of the option `key`.
+  OptionTable& not_above(std::string key) {
+    specs_.back().not_above = std::move(key);
+    return *this;
+  }
+
   /// A value of an enumeration; the default must be among the choices.
   template <class Field, class Enum>
   OptionTable& choice(std::string key, Field field, const OptionChoices<Enum>& choices, std::string help) {
@@ -61,6 +67,12 @@ class OptionTable {
         if (word == option<std::string>(from, key)) field(to) = value;
       }
     });
+    return *this;
+  }
+
+  /// With this value of the option that was described last, observations need not name their landmarks.
+  OptionTable& without_names(std::string value) {
+    specs_.back().without_names = std::move(value);
     return *this;
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -24,8 +25,10 @@ struct OptionSpec {
   OptionValue fallback;                                   // the default
   double min = -std::numeric_limits<double>::infinity();  // numbers only, inclusive
   double max = std::numeric_limits<double>::infinity();   // numbers only, inclusive
-  std::vector<std::string> choices = {};                  // strings only; empty: any
-  std::string help;                                       // one sentence, with the unit
+  std::string not_above = {};             // numbers only: an option of the same type that is no smaller
+  std::vector<std::string> choices = {};  // strings only; empty: any
+  std::optional<OptionValue> without_names = {};  // the value with which it does without landmarks' names
+  std::string help;                               // one sentence, with the unit
 };
 
 /// A kind of estimator: its name, its options, and how it is made.

@@ -27,11 +27,19 @@ void add_theta_x(OptionTable<Struct>& table) {
       "Landmarks that keep their link to the robot when an update ends [-].");
 }
 
+/// theta_x and theta_max of the filters that sparsify in bursts.
 template <class Struct>
-void add_theta_max(OptionTable<Struct>& table) {
-  table.number(
-      "theta_max", [](Struct& o) -> int& { return o.theta_max; }, {2, most_links},
-      "Links of the robot above which all but theta_x are dropped in one burst [-].");
+void add_burst(OptionTable<Struct>& table) {
+  table
+      .number(
+          "theta_x", [](Struct& o) -> int& { return o.theta_x; }, {2, most_links},
+          "Landmarks that keep their link to the robot in a burst, besides those in view. Alone it changes "
+          "little: theta_max says when a burst is due [-].")
+      .not_above("theta_max")
+      .number(
+          "theta_max", [](Struct& o) -> int& { return o.theta_max; }, {2, most_links},
+          "Links of the robot above which all but theta_x are dropped in one burst. More of them mean more "
+          "links of the map and more work in an update [-].");
 }
 
 template <class Struct>
@@ -67,7 +75,9 @@ const OptionTable<AssociationChoice>& association_table() {
                                          {"joint", Association::joint}},
               "Which landmark an observation is of. known: the one that the observation names; nearest: for "
               "each observation alone, the nearest compatible one; joint: the largest set of pairs that are "
-              "compatible together. The last two ignore the names.")
+              "compatible together. The last two ignore the names. Where observations bear no names, known "
+              "means joint.")
+          .without_names("joint")
           .number(
               "match_probability", [](Choice& c) -> double& { return c.options.match_probability; },
               {1e-12, 0.5}, "With an association: the probability that a correct pair is rejected [-].")
@@ -164,8 +174,7 @@ EstimatorType seif_gauge_free() {
                                        .drop = DropOrder::least_recently_seen,
                                        .keep_in_view = true,
                                        .mean_recovery = MeanRecovery::exact});
-  add_theta_x(table);
-  add_theta_max(table);
+  add_burst(table);
   return type_of<PlainSeif>(
       "seif_gauge_free",
       "The SEIF with gauge-free sparsification in bursts and exact mean: not in constant "
@@ -242,8 +251,7 @@ void add_mean_recovery(OptionTable<SeifOptions>& table) {
 
 EstimatorType seif() {
   OptionTable<SeifOptions> table;
-  add_theta_x(table);
-  add_theta_max(table);
+  add_burst(table);
   add_linearisation(table);
   add_gates(table);
   add_mean_recovery(table);

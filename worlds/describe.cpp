@@ -354,9 +354,10 @@ void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
                 "that a visible landmark is not reported");
   fields.number("false_detections_per_scan", sensor.false_detections, between(0, most_false_detections),
                 "mean number (Poisson)");
-  describe_choice(
-      fields, "ids", sensor.ids, landmark_ids_names,
-      "whether an observation tells which landmark it is of; hidden wants estimators with an association");
+  describe_choice(fields, "ids", sensor.ids, landmark_ids_names,
+                  "whether an observation tells which landmark it is of; with hidden, ekf and seif find out "
+                  "by themselves, "
+                  "and estimators that cannot are left out");
   fields.number("misread_probability", sensor.misread_probability, between(0, 1),
                 "that an observation bears another landmark's id");
 }

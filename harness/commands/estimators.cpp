@@ -25,6 +25,7 @@ std::string limits_of(const seif::OptionSpec& option) {
   std::vector<std::string> limits;
   if (std::isfinite(option.min)) limits.push_back(fmt::format("at least {}", option.min));
   if (std::isfinite(option.max)) limits.push_back(fmt::format("at most {}", option.max));
+  if (!option.not_above.empty()) limits.push_back(fmt::format("at most {}", option.not_above));
   return fmt::format("{}", fmt::join(limits, ", "));
 }
 

@@ -45,7 +45,9 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
   write_world(run.plan.folder, world, loaded.resolved);
   if (!arguments.film) return print_result(execute(run), run.plan.folder, arguments.output);
-  Film film(film_plan(world), *run.log, *run.believers,
+  worlds::World filmed = world;
+  leave_out_missing(filmed, *run.believers);
+  Film film(film_plan(filmed), *run.log, *run.believers,
             make_frame_sink(run.plan.folder / "film.mp4",
                             {world.film.width, world.film.height, world.film.fps}, false));
   film.after_each_frame([] { return !InterruptGuard::flag(); });

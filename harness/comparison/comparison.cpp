@@ -66,15 +66,20 @@ std::optional<double> value_of(const std::optional<Estimate>& estimate) {
   return estimate ? std::optional(estimate->value) : std::nullopt;
 }
 
-std::optional<Estimate> paired_ratio(const Values& values, const Values& baseline) {
-  std::vector<double> numerators;
-  std::vector<double> denominators;
+/// The values of the runs that both estimators finished.
+struct Pairs {
+  std::vector<double> values;
+  std::vector<double> baseline;
+};
+
+Pairs pairs_of(const Values& values, const Values& baseline) {
+  Pairs pairs;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!values[i] || !baseline[i]) continue;
-    numerators.push_back(*values[i]);
-    denominators.push_back(*baseline[i]);
+    pairs.values.push_back(*values[i]);
+    pairs.baseline.push_back(*baseline[i]);
   }
-  return ratio_of_means(numerators, denominators);
+  return pairs;
 }
 
 /// The ratio for each run.
@@ -93,14 +98,17 @@ std::optional<double> aligned(const EstimatorScore& score) { return score.landma
 void compare_errors(std::span<const ComparedRun> runs, const std::string& baseline,
                     EstimatorComparison& estimator) {
   const Values mse = collect(runs, estimator.name, landmark_mse);
-  estimator.landmark_mse = mean_of(present(mse));
+  estimator.landmark_mse = mean_of_positive(present(mse));
   estimator.landmark_mse_median = median_of(present(mse));
-  estimator.landmark_mse_ratio = paired_ratio(mse, collect(runs, baseline, landmark_mse));
+  const Pairs mse_pairs = pairs_of(mse, collect(runs, baseline, landmark_mse));
+  estimator.landmark_mse_ratio = ratio_of_pairs(mse_pairs.values, mse_pairs.baseline);
+  estimator.landmark_mse_ratio_of_means = ratio_of_means(mse_pairs.values, mse_pairs.baseline);
   const Values rmse = collect(runs, estimator.name, aligned);
-  estimator.landmark_aligned = mean_of(present(rmse));
-  const std::vector<double> aligned_ratios = present(ratios(rmse, collect(runs, baseline, aligned)));
-  estimator.aligned_ratio = mean_of(aligned_ratios);
-  estimator.aligned_ratio_median = median_of(aligned_ratios);
+  estimator.landmark_aligned = mean_of_positive(present(rmse));
+  const Values baseline_rmse = collect(runs, baseline, aligned);
+  const Pairs rmse_pairs = pairs_of(rmse, baseline_rmse);
+  estimator.aligned_ratio = ratio_of_pairs(rmse_pairs.values, rmse_pairs.baseline);
+  estimator.aligned_ratio_median = median_of(present(ratios(rmse, baseline_rmse)));
 }
 
 /// Adds the means of the details, over the runs that the estimator finished.
@@ -113,7 +121,7 @@ void compare_details(std::span<const ComparedRun> runs, EstimatorComparison& est
           std::ranges::find(run.details->estimators, estimator.name, &EstimatorDetails::name);
       if (const std::optional<double> value = get(*details)) values.push_back(*value);
     }
-    return mean_of(values);
+    return mean_of_positive(values);
   };
   const auto mean_count = [&](int MapCounts::*which) {
     return value_of(mean([which](const EstimatorDetails& details) {
@@ -141,7 +149,7 @@ std::optional<double> relocation_rate(const ComparedRun& run, const std::string&
 
 void compare_costs(std::span<const ComparedRun> runs, EstimatorComparison& estimator) {
   const auto values = [&](const Get& get) { return present(collect(runs, estimator.name, get)); };
-  estimator.links = mean_of(values([](const EstimatorScore& score) { return real(score.links); }));
+  estimator.links = mean_of_positive(values([](const EstimatorScore& score) { return real(score.links); }));
   const std::vector<double> most = values([](const EstimatorScore& score) { return real(score.links_max); });
   if (!most.empty()) estimator.links_max = std::ranges::max(most);
   Values rates;
@@ -168,9 +176,9 @@ void compare_estimators(Comparison& comparison) {
       ++(finished(run, name) == nullptr ? estimator.failed : estimator.runs);
     }
     compare_errors(runs, comparison.baseline, estimator);
-    estimator.nees_pose = mean_of(
+    estimator.nees_pose = mean_of_positive(
         present(collect(runs, name, [](const EstimatorScore& score) { return score.nees_pose_final; })));
-    estimator.nees_landmark = mean_of(
+    estimator.nees_landmark = mean_of_positive(
         present(collect(runs, name, [](const EstimatorScore& score) { return score.nees_landmark_final; })));
     compare_details(runs, estimator);
     compare_costs(runs, estimator);

@@ -22,16 +22,17 @@ struct ComparedRun {
 /// Statistics of an estimator over the runs that it finished. A value that no run has is empty.
 struct EstimatorComparison {
   std::string name;
-  int runs = 0;                                  // [-] finished
-  int failed = 0;                                // [-] runs in which the estimator or the whole run failed
-  std::optional<Estimate> landmark_mse;          // [m^2]
-  std::optional<double> landmark_mse_median;     // [m^2] median over the runs
-  std::optional<Estimate> landmark_mse_ratio;    // [-] relative to the baseline's
-  std::optional<Estimate> landmark_aligned;      // [m] RMSE
-  std::optional<Estimate> aligned_ratio;         // [-] mean over the runs of the ratio to the baseline
-  std::optional<double> aligned_ratio_median;    // [-]
-  std::optional<Estimate> nees_pose;             // [-] when the run ends
-  std::optional<Estimate> nees_landmark;         // [-] when the run ends
+  int runs = 0;                                // [-] finished
+  int failed = 0;                              // [-] runs in which the estimator or the whole run failed
+  std::optional<Estimate> landmark_mse;        // [m^2]
+  std::optional<double> landmark_mse_median;   // [m^2] median over the runs
+  std::optional<Estimate> landmark_mse_ratio;  // [-] to the baseline's, geometric mean over the runs
+  std::optional<Estimate> landmark_mse_ratio_of_means;  // [-] mean over the runs, to the baseline's mean
+  std::optional<Estimate> landmark_aligned;             // [m] RMSE
+  std::optional<Estimate> aligned_ratio;                // [-] to the baseline's, geometric mean over the runs
+  std::optional<double> aligned_ratio_median;           // [-]
+  std::optional<Estimate> nees_pose;                    // [-] when the run ends
+  std::optional<Estimate> nees_landmark;                // [-] when the run ends
   std::optional<Estimate> nees_from_robot;       // [-] of landmarks as seen from the robot, when the run ends
   std::optional<Estimate> nis_scan;              // [-] for whole scans
   std::optional<double> nis_scan_inside;         // [-] share of scans inside their band, mean over runs

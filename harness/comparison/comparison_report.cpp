@@ -1,6 +1,7 @@
 // A comparison as JSON and as tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ Json estimator_json(const EstimatorComparison& estimator) {
   json["landmark_mse_m2"] = estimate(estimator.landmark_mse);
   json["landmark_mse_median_m2"] = number(estimator.landmark_mse_median);
   json["landmark_mse_ratio"] = estimate(estimator.landmark_mse_ratio);
+  json["landmark_mse_ratio_of_means"] = estimate(estimator.landmark_mse_ratio_of_means);
   json["landmark_rmse_aligned_m"] = estimate(estimator.landmark_aligned);
   json["landmark_rmse_aligned_ratio"] = estimate(estimator.aligned_ratio);
   json["landmark_rmse_aligned_ratio_median"] = number(estimator.aligned_ratio_median);
@@ -108,6 +110,15 @@ TextRow cost_row(const EstimatorComparison& estimator) {
           number_cell(estimator.update_p99_us, 1)};
 }
 
+std::string footnote(const std::string& baseline) {
+  return fmt::format(
+      "over {}: geometric mean over the runs of the ratio in the same run\n"
+      "95 %: BCa bootstrap of the mean (below 8 runs Student's t of its logarithm); of a ratio Student's t "
+      "of "
+      "the mean logarithm\n",
+      baseline);
+}
+
 /// One line for a failed run, or for each estimator that failed in it.
 std::string failures(const ComparedRun& run) {
   if (!run.result.error.empty()) return fmt::format("{} failed: {}\n", run.name, run.result.error);
@@ -119,6 +130,17 @@ std::string failures(const ComparedRun& run) {
         fmt::format("{}: {} failed {}\n", run.name, summary.score.estimators[i].name, summary.failures[i]);
   }
   return text;
+}
+
+/// The notes of all runs, each once.
+std::vector<std::string> notes_of(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  for (const ComparedRun& run : comparison.runs) {
+    for (const std::string& note : run.result.summary.notes) {
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    }
+  }
+  return notes;
 }
 
 }  // namespace
@@ -158,9 +180,10 @@ std::string comparison_board(const Comparison& comparison) {
     consistency.push_back(consistency_row(estimator));
     cost.push_back(cost_row(estimator));
   }
-  std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
+  std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
                                  comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
-                                 text_table(consistency), text_table(cost));
+                                 text_table(consistency), text_table(cost), footnote(comparison.baseline));
+  for (const std::string& note : notes_of(comparison)) text += note + '\n';
   const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;
 }

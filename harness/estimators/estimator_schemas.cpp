@@ -1,10 +1,14 @@
 #include "harness/estimators/estimator_schemas.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace harness {
 
@@ -49,6 +53,24 @@ class DescribeOption {
   worlds::OptionValue& value_;
 };
 
+double number_in(const worlds::OptionValue& value) {
+  const auto* whole = std::get_if<std::int64_t>(&value);
+  return whole == nullptr ? std::get<double>(value) : static_cast<double>(*whole);
+}
+
+/// Refuses a number that is larger than the option that bounds it.
+void check_order(worlds::Fields& fields, const std::vector<seif::OptionSpec>& specs,
+                 const std::map<std::string, worlds::OptionValue>& options) {
+  for (const seif::OptionSpec& spec : specs) {
+    if (spec.not_above.empty()) continue;
+    const double value = number_in(options.at(spec.key));
+    const double bound = number_in(options.at(spec.not_above));
+    if (value <= bound) continue;
+    fields.problem(spec.key, fmt::format("'{}' must be at most '{}', which is {}, not {}; set both", spec.key,
+                                         spec.not_above, bound, value));
+  }
+}
+
 }  // namespace
 
 worlds::EstimatorSchemas estimator_schemas(const seif::Registry& registry) {
@@ -59,6 +81,7 @@ worlds::EstimatorSchemas estimator_schemas(const seif::Registry& registry) {
       for (const seif::OptionSpec& spec : specs) {
         std::visit(DescribeOption(fields, spec, options[spec.key]), spec.fallback);
       }
+      if (fields.sound()) check_order(fields, specs, options);
     };
   }
   return schemas;

@@ -112,6 +112,7 @@ std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,
   });
   replayed.scoring.interval = std::numeric_limits<double>::infinity();  // scored already
   result.replay = prepare_replay(folder, replayed, registry);
+  leave_out_missing(result.plan.world, *result.replay.believers);
   result.plan.knows_world = std::filesystem::exists(folder / "world.yaml");
   result.plan.name = result.replay.plan.name;
   result.plan.seed = result.plan.world.seed;

@@ -71,7 +71,8 @@ Figure intervals_of(const Aggregate& aggregate, const PlottedScore& score,
                     const std::vector<Drawn>& estimators) {
   Figure figure{.id = score.id, .title = score.title, .y = score.axis};
   figure.x.label = fmt::format("{}", fmt::join(short_paths(aggregate.plan), ", "));
-  figure.caption = "Means over the seeds with their 95 % confidence intervals (Student's).";
+  figure.caption =
+      "Means over the seeds with their 95 % confidence intervals (BCa bootstrap; docs/sweeps.md).";
   for (const SettingStatistics& setting : aggregate.settings)
     figure.categories.push_back(setting.values.empty() ? "all seeds"
                                                        : fmt::format("{}", fmt::join(setting.values, ", ")));

@@ -70,8 +70,7 @@ std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
     std::unique_ptr<seif::Estimator> filter = type->make(setup, choice.options);
     if (!log.known_association && filter->needs_names())
       throw BadInput(fmt::format(
-          "{}: the observations of {} do not say which landmark they are of, and this estimator needs that; "
-          "those of type ekf and seif do not, with the option association: joint",
+          "{}: the observations of {} do not say which landmark they are of, and this estimator needs that",
           choice.name, log.name));
     estimators.push_back(
         {choice.name, std::move(filter), choice.odometry_sd_factor, choice.observation_sd_factor, {}});

@@ -1,14 +1,19 @@
 #include "harness/run/prepared_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
+#include "harness/run/without_names.hpp"
 #include "harness/simulation/simulated_stream.hpp"
 #include "worlds/document.hpp"
 #include "worlds/merge.hpp"
@@ -26,10 +31,29 @@ void set_stream(PreparedRun& run, std::unique_ptr<SomeStream> stream) {
   run.stream = std::move(stream);
 }
 
-void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Registry& registry) {
-  run.believers->estimators = make_estimators(registry, world.estimators, *run.log, world.seed);
+/// `remedy` says what to type if no estimator can run without the names of landmarks.
+void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Registry& registry,
+                    const std::function<std::string(const std::vector<std::string>& types)>& remedy) {
+  AbleEstimators able = able_estimators(registry, world.estimators, *run.log);
+  if (able.choices.empty() && !able.notes.empty())
+    throw BadInput(fmt::format(
+        "{}: the observations do not say which landmark they are of, and no estimator here can do "
+        "without that; type {}",
+        run.log->name, remedy(types_without_names(registry))));
+  run.believers->estimators = make_estimators(registry, able.choices, *run.log, world.seed);
+  run.plan.notes = std::move(able.notes);
   run.plan.seed = world.seed;
   run.plan.scoring = world.scoring;
+}
+
+/// The estimator that steers must not have been left out.
+void check_steering(const worlds::World& world, const Believers& believers) {
+  const std::string& name = world.drive.pose_from;
+  if (name == "truth" || name == "odometry") return;
+  if (std::ranges::find(believers.estimators, name, &LiveEstimator::name) == believers.estimators.end())
+    throw BadInput(fmt::format(
+        "drive.pose_from: {} cannot steer: the observations do not name their landmarks, and it needs that",
+        name));
 }
 
 }  // namespace
@@ -39,7 +63,10 @@ PreparedRun prepare_run(const worlds::World& world, const seif::Registry& regist
   run.believers = std::make_unique<Believers>();
   set_stream(run,
              std::make_unique<SimulatedStream>(world, steering_pose(world.drive.pose_from, *run.believers)));
-  set_estimators(run, world, registry);
+  set_estimators(run, world, registry, [](const std::vector<std::string>& types) {
+    return fmt::format("--set 'estimators={{{}: {{}}}}'", fmt::join(types, ": {}, "));
+  });
+  check_steering(world, *run.believers);
   run.plan.name = world.name;
   run.plan.end_t = world.duration;
   return run;
@@ -54,9 +81,18 @@ PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, con
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
   set_stream(run, open_log(log));
-  set_estimators(run, world, registry);
+  set_estimators(run, world, registry, [](const std::vector<std::string>& types) {
+    return fmt::format("--estimators {}", fmt::join(types, ","));
+  });
   run.plan.name = run.log->name;
   return run;
+}
+
+void leave_out_missing(worlds::World& world, const Believers& believers) {
+  std::erase_if(world.estimators, [&](const worlds::EstimatorChoice& choice) {
+    return std::ranges::find(believers.estimators, choice.name, &LiveEstimator::name) ==
+           believers.estimators.end();
+  });
 }
 
 RunResult execute(PreparedRun& run, RunListener* follower) {

@@ -20,14 +20,18 @@ struct PreparedRun {
   RunPlan plan;
 };
 
-/// Both functions throw BadInput if the log cannot be read or an estimator cannot be made.
+/// Both functions throw BadInput if the log cannot be read or an estimator cannot be made. If the observations
+/// name no landmark, estimators that cannot do without are left out (without_names.hpp); throws BadInput if none
+/// is left.
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry);
 
-/// Estimators, scoring and seed come from `world`; the rest is recorded. Throws BadInput also if an estimator
-/// needs landmark ids and the log's observations have none.
+/// Estimators, scoring and seed come from `world`; the rest is recorded.
 PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry);
 PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World& world,
                            const seif::Registry& registry);
+
+/// Erases the estimators from the world that are not among the believers.
+void leave_out_missing(worlds::World& world, const Believers& believers);
 
 RunResult execute(PreparedRun& run, RunListener* follower = nullptr);
 

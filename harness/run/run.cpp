@@ -87,6 +87,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   summary.error = result.error;
   summary.trajectory_hash = trajectory_hash(plan.folder);
   summary.realtime_factor = summary.duration / elapsed;
+  summary.notes = plan.notes;
   summary.rpe_interval = plan.scoring.rpe_interval;
   for (const auto& [name, count] : named(stream.counts())) summary.log_counts.emplace_back(name, count);
   for (const auto& [name, count] : loop.screening().named()) summary.left_out.emplace_back(name, count);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/run/live_loop.hpp"
 #include "harness/score/summary.hpp"
@@ -16,8 +17,9 @@ struct RunPlan {
   std::string name;              // name of the world or log
   std::uint64_t seed = 0;
   worlds::Scoring scoring;
-  std::optional<double> end_t;  // [s] end of the stream; empty: not known
-  bool quiet = false;           // show no progress
+  std::optional<double> end_t;          // [s] end of the stream; empty: not known
+  bool quiet = false;                   // show no progress
+  std::vector<std::string> notes = {};  // for the summary
 };
 
 struct RunResult {

@@ -1,6 +1,7 @@
 #include "harness/score/scoreboard.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,10 @@ std::string log_line(const Summary& summary) {
   for (const auto& [name, value] : summary.log_counts)
     text += fmt::format("{}{} {}", text.empty() ? "\nLeft out of the log, or bridged: " : ", ", name, value);
   return text + '\n';
+}
+
+std::string note_lines(const Summary& summary) {
+  return summary.notes.empty() ? "" : fmt::format("\n{}\n", fmt::join(summary.notes, "\n"));
 }
 
 /// What was not given to the estimators, one line for each kind; empty if nothing.
@@ -180,8 +185,9 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += log_line(summary) + left_out_line(summary) + truth_lines(summary) + matching_lines(summary) +
-          gate_line(summary) + association_lines(summary) + divergence_lines(summary);
+  text += note_lines(summary) + log_line(summary) + left_out_line(summary) + truth_lines(summary) +
+          matching_lines(summary) + gate_line(summary) + association_lines(summary) +
+          divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

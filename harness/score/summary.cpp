@@ -130,6 +130,7 @@ Summary parse_summary(std::istream& text) {
   const Json log = json.value("log", Json::object());
   for (const auto& [name, count] : log.items())
     summary.log_counts.emplace_back(name, count.get<std::int64_t>());
+  for (const Json& note : json.value("notes", Json::array())) summary.notes.push_back(note);
   read_left_out(json.value("left_out", Json::object()), summary);
   for (const auto& [name, score] : json.at("estimators").items()) {
     if (file_name_of(name) != name) throw BadInput(fmt::format("'{}' is no name of an estimator", name));
@@ -188,6 +189,7 @@ std::string to_json(const Summary& summary) {
   }
   json["true_frame_known"] = summary.score.frame_is_known;
   json["scoring_times_without_truth"] = summary.score.times_without_truth;
+  if (!summary.notes.empty()) json["notes"] = summary.notes;
   json["odometry"] = Json::object();
   add_trajectory(json["odometry"], summary.score.odometry);
   json["estimators"] = Json::object();

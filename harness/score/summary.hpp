@@ -26,6 +26,7 @@ struct Summary {
   std::vector<std::pair<std::string, std::int64_t>> log_counts;  // what the reader of a log left out
   std::vector<std::pair<std::string, std::int64_t>> left_out;    // what no estimator was given, if anything
   std::optional<double> left_out_t;                              // [s] time of the first event in `left_out`
+  std::vector<std::string> notes;  // how the estimators that ran differ from those asked for; may be empty
   RunScore score;
   std::vector<std::string> failures;  // one entry for each of `score.estimators`; empty: it did not fail
 };

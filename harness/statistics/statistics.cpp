@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "harness/statistics/bootstrap.hpp"
+
 namespace harness {
 
 namespace {
@@ -30,6 +32,17 @@ double covariance_of_means(std::span<const double> a, std::span<const double> b)
   return sum / (n - 1) / n;
 }
 
+constexpr std::size_t fewest_for_interval = 3;
+constexpr std::size_t fewest_for_bootstrap = 8;
+
+/// Student's interval for the logarithm of the mean; the standard error of the logarithm is to first order the
+/// relative one of the mean.
+ConfidenceInterval log_interval(double mean, std::span<const double> sample) {
+  const double relative_error = std::sqrt(covariance_of_means(sample, sample)) / mean;
+  const double half = student_quantile(sample.size() - 1) * relative_error;
+  return {mean * std::exp(-half), mean * std::exp(half)};
+}
+
 }  // namespace
 
 std::optional<Estimate> mean_of(std::span<const double> sample) {
@@ -38,6 +51,43 @@ std::optional<Estimate> mean_of(std::span<const double> sample) {
   if (sample.size() < 2) return estimate;
   const double half = student_quantile(sample.size() - 1) * std::sqrt(covariance_of_means(sample, sample));
   estimate.interval = {estimate.value - half, estimate.value + half};
+  return estimate;
+}
+
+std::optional<Estimate> mean_of_positive(std::span<const double> sample) {
+  if (sample.empty()) return std::nullopt;
+  if (std::ranges::min(sample) < 0.0) return mean_of(sample);
+  Estimate estimate{mean(sample), std::nullopt};
+  const bool is_finite = std::ranges::all_of(sample, [](double value) { return std::isfinite(value); });
+  if (sample.size() < fewest_for_interval || !is_finite) return estimate;
+  if (std::ranges::min(sample) == std::ranges::max(sample)) {
+    estimate.value = sample.front();
+    estimate.interval = {estimate.value, estimate.value};
+  } else if (sample.size() < fewest_for_bootstrap) {
+    estimate.interval = log_interval(estimate.value, sample);
+  } else {
+    // Hesterberg's expansion (2015): without it the bootstrap's intervals are too narrow for small samples.
+    const auto n = static_cast<double>(sample.size());
+    estimate.interval =
+        bca_interval_of_mean(sample, student_quantile(sample.size() - 1) * std::sqrt(n / (n - 1)));
+  }
+  return estimate;
+}
+
+std::optional<Estimate> ratio_of_pairs(std::span<const double> numerators,
+                                       std::span<const double> denominators) {
+  assert(numerators.size() == denominators.size());
+  std::vector<double> logarithms;
+  for (std::size_t i = 0; i < numerators.size(); ++i) {
+    logarithms.push_back(std::log(numerators[i] / denominators[i]));
+    if (!std::isfinite(logarithms.back())) return std::nullopt;
+  }
+  std::optional<Estimate> estimate = mean_of(logarithms);
+  if (!estimate) return std::nullopt;
+  estimate->value = std::exp(estimate->value);
+  if (logarithms.size() < fewest_for_interval) estimate->interval = std::nullopt;
+  if (estimate->interval)
+    estimate->interval = {std::exp(estimate->interval->low), std::exp(estimate->interval->high)};
   return estimate;
 }
 
@@ -56,7 +106,7 @@ std::optional<Estimate> ratio_of_means(std::span<const double> numerators,
   const double a = x * x - t * t * covariance_of_means(denominators, denominators);
   const double b = x * y - t * t * covariance_of_means(denominators, numerators);
   const double c = y * y - t * t * covariance_of_means(numerators, numerators);
-  if (a <= 0.0) return estimate;
+  if (a <= 0.0 || c < 0.0) return estimate;
   const double root = std::sqrt(std::max(0.0, b * b - a * c));  // rounding may make the argument negative
   estimate.interval = {(b - root) / a, (b + root) / a};
   return estimate;

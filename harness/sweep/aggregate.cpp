@@ -56,7 +56,7 @@ std::optional<ScoreStatistics> statistics_of(Runs runs, const std::string& estim
     const std::optional<double> other = number_of(finished(run, baseline), score);
     if (other && estimator != baseline) differences.push_back(*value - *other);
   }
-  const std::optional<Estimate> mean = mean_of(values);
+  const std::optional<Estimate> mean = mean_of_positive(values);
   if (!mean) return std::nullopt;
   return ScoreStatistics{
       score, values.size(), *mean, *median_of(values), differences.size(), mean_of(differences)};

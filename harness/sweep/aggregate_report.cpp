@@ -67,6 +67,10 @@ std::string difference_cell(const EstimatorStatistics& estimator, const char* sc
                      number_cell(difference.interval->high, decimals));
 }
 
+constexpr const char* interval_methods =
+    "95 % confidence: of a mean BCa bootstrap, below 8 runs Student's t of its logarithm (Student's t of the "
+    "mean where a value is negative); of a difference Student's t";
+
 TextRow board_row(const SettingStatistics& setting, const EstimatorStatistics& estimator) {
   TextRow row = setting.values;
   row.push_back(estimator.name);
@@ -91,7 +95,7 @@ std::string to_json(const Aggregate& aggregate) {
   json["version"] = plan.version;
   json["baseline"] = plan.baseline;
   json["seeds"] = seeds_text(plan.seeds);
-  json["interval"] = "95 % confidence, Student's t";
+  json["interval"] = interval_methods;
   json["cells"] = cell_count(plan);
   json["failed"] = Json::array();
   for (const FailedCell& cell : aggregate.failed)
@@ -143,6 +147,11 @@ std::string aggregate_board(const Aggregate& aggregate) {
   std::string text = fmt::format("{}, seeds {}, {} settings, {} runs, {} of them failed\n\n{}", plan.name,
                                  seeds_text(plan.seeds), setting_count(plan), cell_count(plan),
                                  aggregate.failed.size(), text_table(aggregate_table(aggregate)));
+  text += fmt::format(
+      "\nless {}'s: 95 % interval of the mean difference in the same run (Student's t). Intervals of means "
+      "are "
+      "in aggregate.csv.\n",
+      plan.baseline);
   return aggregate.failed.empty() ? text : text + '\n' + failed_lines(plan, aggregate.failed);
 }
 

@@ -4,6 +4,8 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -94,7 +96,8 @@ TEST(Comparison, TakesMeansOverTheRunsThatAnEstimatorFinished) {
 TEST(Comparison, TakesRatiosOfTheRunsThatBothFinished) {
   const Comparison comparison = example();
   const EstimatorComparison& b = comparison.estimators[1];
-  EXPECT_DOUBLE_EQ(b.landmark_mse_ratio->value, 4.0);  // not 20 / (14/3)
+  EXPECT_DOUBLE_EQ(b.landmark_mse_ratio->value, 4.0);
+  EXPECT_DOUBLE_EQ(b.landmark_mse_ratio_of_means->value, 4.0);  // not 20 / (14/3)
   EXPECT_DOUBLE_EQ(b.aligned_ratio->value, 2.0);
   EXPECT_EQ(b.aligned_ratio_median, 2.0);
   EXPECT_EQ(comparison.estimators[0].landmark_mse_ratio->value, 1.0);
@@ -114,6 +117,22 @@ TEST(Comparison, ARunThatFailedCountsForAllOfItsEstimators) {
   for (const char* line : {"example-1 failed: the log breaks off\n", "example-4 failed: cannot begin\n",
                            "example-2: b failed at 5 s: gave up\n"})
     EXPECT_NE(board.find(line), std::string::npos) << board;
+}
+
+TEST(Comparison, NoIntervalReachesBelowZeroWhereARunDiverged) {
+  Comparison comparison = example();
+  comparison.estimators.clear();
+  comparison.runs[1].result.summary.failures = {"", ""};
+  comparison.runs[2].result.summary.score.estimators[1] = score("b", 600.0, 9000.0, 60);
+  compare_estimators(comparison);
+  const EstimatorComparison& b = comparison.estimators[1];
+  for (const std::optional<Estimate>* figure : {&b.landmark_mse, &b.landmark_mse_ratio, &b.landmark_aligned,
+                                                &b.aligned_ratio, &b.nees_pose, &b.nees_landmark, &b.links})
+    EXPECT_GT((*figure)->interval->low, 0.0);
+  EXPECT_FALSE(b.landmark_mse_ratio_of_means->interval);
+  const std::string board = comparison_board(comparison);
+  EXPECT_NE(board.find("95 %: BCa bootstrap"), std::string::npos) << board;
+  EXPECT_FALSE(std::regex_search(board, std::regex(" -[0-9]"))) << "a negative number: " << board;
 }
 
 TEST(Comparison, JsonHasIntervalsAndEveryRun) {

@@ -74,19 +74,20 @@ TEST(PaperReport, PutsTheReportsFiguresBesideOurs) {
       text.find("example: 50 landmarks, 500 updates, theta_x = 6, K = 10, kinematic, 3 runs from seed 1"),
       std::string::npos)
       << text;
-  // 14/3 -+ 4.302653 * 7/3.
+  // 14/3 times exp(-+ 4.302653 / 2).
   expect_in(line_with(text, "EKF (ekf)", 1),
-            {"3", "0", "4.67", "-5.37 to 14.71", "4.00", "5.54 +- 0.67", "1.000"});
+            {"3", "0", "4.67", "0.54 to 40.12", "4.00", "5.54 +- 0.67", "1.000"});
   // Fieller's interval is unbounded: the EKF's mean, 14/3, is less than 4.302653 * 7/3.
   expect_in(line_with(text, "SEIF, constant time", 1),
-            {"3", "0", "18.67", "-21.49 to 58.82", "16.00", "6.35 +- 0.67", "4.000", "-", "1.146", "2.000"});
+            {"3", "0", "18.67", "2.17 to 160.46", "16.00", "6.35 +- 0.67", "4.000", "-", "1.146", "4.000",
+             "4.000 to 4.000", "2.000"});
   expect_in(line_with(text, "EKF (ekf)", 2),
             {"1275.0", "1275.0 to 1275.0", "1275", "20.0", "O(N^2)", "O(N^2)"});
-  // 502 -+ 4.302653 / sqrt(3).
+  // 502 times exp(-+ 4.302653 / sqrt(3) / 502).
   expect_in(line_with(text, "SEIF, constant time", 2),
             {"502.0", "499.5 to 504.5", "549 +- 1.59", "20.0", "O(1)"});
-  // 2 -+ 4.302653 / sqrt(3).
-  expect_in(line_with(text, "SEIF, constant time", 3), {"2.00", "-0.48 to 4.48", "4.00", "-0.97 to 8.97"});
+  // 2 times exp(-+ 4.302653 / sqrt(3) / 2).
+  expect_in(line_with(text, "SEIF, constant time", 3), {"2.00", "0.58 to 6.93", "4.00", "1.16 to 13.85"});
 }
 
 TEST(PaperReport, SaysWhatItsColumnsMeanAndWhatFailed) {
@@ -104,8 +105,8 @@ TEST(PaperReport, JsonHasWhatTheTableHasAndNothingFromAClock) {
   EXPECT_EQ(json["engine"], "kinematic");
   const nlohmann::json& ekf = json["estimators"]["ekf"];
   EXPECT_NEAR(ekf["landmark_mse_m2"]["value"], 14e-3 / 3, 1e-12);
-  EXPECT_NEAR(ekf["landmark_mse_m2"]["low"], (14.0 / 3 - 4.302653 * 7 / 3) * 1e-3, 1e-8);
-  EXPECT_NEAR(ekf["landmark_mse_m2"]["high"], (14.0 / 3 + 4.302653 * 7 / 3) * 1e-3, 1e-8);
+  EXPECT_NEAR(ekf["landmark_mse_m2"]["low"], 14.0 / 3 * std::exp(-4.302653 / 2) * 1e-3, 1e-8);
+  EXPECT_NEAR(ekf["landmark_mse_m2"]["high"], 14.0 / 3 * std::exp(4.302653 / 2) * 1e-3, 1e-8);
   EXPECT_NEAR(ekf["report"]["error"], 5.54e-3, 1e-12);
   EXPECT_TRUE(ekf["report"]["links_half_interval"].is_null());
   const nlohmann::json& seif = json["estimators"]["seif_report"];

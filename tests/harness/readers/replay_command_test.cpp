@@ -43,10 +43,11 @@ TEST(ReplayOfOtherLogs, ShowsWhatItLeftOut) {
 TEST(ReplayOfOtherLogs, RefusesWhatIsBrokenOrNamesNoLandmark) {
   const TemporaryFolder folder;
   write_files(folder / "trees", victoria_park_files());
-  const Called nameless = call(folder, "replay trees --set estimators.ekf.association=known");
+  const Called nameless = call(folder, "replay trees --estimators seif_report");
   EXPECT_EQ(nameless.exit_code, 2);
-  EXPECT_EQ(call(folder, "replay trees --out run").exit_code, 0) << "ekf and seif find out by themselves";
   EXPECT_NE(nameless.errors.find("do not say which landmark they are of"), std::string::npos);
+  EXPECT_TRUE(nameless.errors.ends_with("; type --estimators ekf,seif\n")) << nameless.errors;
+  EXPECT_EQ(call(folder, "replay trees --estimators ekf,seif --out run").exit_code, 0);
   write_file(folder / "graph.txt", "ODOMETRY 0 1 1 0 0 1 0 0 1 0 1\nLANDMARK 1 2 far 0 1 0 1\n");
   const Called broken = call(folder, "replay graph.txt");
   EXPECT_EQ(broken.exit_code, 2);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +12,7 @@
 #include "harness/fixtures.hpp"
 #include "harness/score/details.hpp"
 #include "harness/score/scoreboard.hpp"
+#include "harness/score/summary.hpp"
 #include "harness/score/true_names.hpp"
 
 namespace harness {
@@ -180,6 +182,49 @@ TEST(NamelessRun, WhoseMapFitsNowhereHasNoScoreOfIt) {
     EXPECT_FALSE(score.landmarks.rmse || score.landmarks.rmse_aligned || score.landmarks_spurious);
   }
   EXPECT_NE(scoreboard(run.summary).find("The map of seif has no score"), std::string::npos);
+}
+
+std::string line_of(const std::string& text, const std::string& beginning) {
+  const std::size_t at = text.find("\n" + beginning);
+  return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
+TEST(NamelessRun, IsLeftToTheEstimatorsThatCanAssociate) {
+  const TemporaryFolder folder;
+  worlds::World world = nameless_world();
+  world.duration = 10.0;
+  world.estimators = {choice("ekf"), choice("seif_report"), choice("eif"), choice("seif")};
+  world.estimators.back().options["association"] = std::string("nearest");
+  const RunResult run = run_live(world, folder / "run");
+  ASSERT_EQ(run.summary.score.estimators.size(), 2U);
+  EXPECT_EQ(run.summary.score.estimators[0].name, "ekf");
+  EXPECT_EQ(run.summary.score.estimators[1].name, "seif");
+  const std::vector<std::string> notes = {
+      "ekf ran with association: joint, because the observations do not name their landmarks",
+      "seif_report was left out: the observations do not name their landmarks",
+      "eif was left out: the observations do not name their landmarks"};
+  EXPECT_EQ(run.summary.notes, notes);
+  EXPECT_EQ(read_summary(folder / "run" / "summary.json").notes, notes);
+  for (const std::string& note : notes) EXPECT_EQ(line_of(scoreboard(run.summary), note), note);
+  const RunResult replayed = replay(world, folder / "run", folder / "replay");
+  EXPECT_EQ(replayed.summary.notes, notes);
+  EXPECT_EQ(replayed.summary.trajectory_hash, run.summary.trajectory_hash);
+}
+
+TEST(NamelessRun, SaysWhatToTypeIfNoEstimatorIsLeft) {
+  const TemporaryFolder folder;
+  worlds::World world = nameless_world();
+  world.estimators = {choice("seif_report")};
+  try {
+    run_live(world, folder / "run");
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("; type --set 'estimators={ekf: {}, seif: {}}'"))
+        << error.what();
+  }
+  world.estimators = {choice("ekf"), choice("seif_report")};
+  world.drive.pose_from = "seif_report";
+  EXPECT_THROW(run_live(world, folder / "run"), BadInput);
 }
 
 TEST(NamelessRun, IsReplayedToTheSameBytes) {
