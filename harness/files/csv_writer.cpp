@@ -19,6 +19,7 @@ CsvWriter::CsvWriter(std::filesystem::path path, std::string_view header, char s
   if (header.empty()) return;
   row_ = header;
   end_row();
+  file_.flush();  // so that a killed run leaves no table without its head
 }
 
 void CsvWriter::separate() {

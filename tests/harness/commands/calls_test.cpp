@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"score run --away-s inf", "--away-s: 'inf' is not allowed"},
         Mistake{"run world.yaml --duration 1e300", "more than 0 and at most 1000000"},
         Mistake{"run world.yaml --seed 9223372036854775808", "from 0 to 9223372036854775807"},
-        Mistake{"run world.yaml --set seed=9223372036854775808", "must be at most 9223372036854775807"},
+        Mistake{"run world.yaml --set seed=9223372036854775808", "at most 9223372036854775807"},
         Mistake{"compare world.yaml --seeds 9223372036854775808", "from 0 to 9223372036854775807"},
         Mistake{"compare world.yaml --jobs 1.5",
                 "'1.5' is not allowed: it must be a whole number from 1 to 256"},

@@ -138,8 +138,8 @@ TEST_F(ReportCommand, SaysWhatIsWrong) {
   EXPECT_TRUE(contains(nothing.errors, "no folder of a run")) << nothing.errors;
   run();
   const Called missing = call(folder, "report run --chart-js nowhere.js");
-  EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_EQ(missing.errors, "seifbed: cannot read nowhere.js: No such file or directory\n");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.errors, "nowhere.js: cannot be read: there is no such file\n");
 }
 
 class ReportInBrowser : public ReportCommand {
