@@ -1,15 +1,12 @@
 #include "harness/run/prepared_run.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
@@ -31,29 +28,12 @@ void set_stream(PreparedRun& run, std::unique_ptr<SomeStream> stream) {
   run.stream = std::move(stream);
 }
 
-/// `remedy` says what to type if no estimator can run without the names of landmarks.
 void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Registry& registry,
-                    const std::function<std::string(const std::vector<std::string>& types)>& remedy) {
-  AbleEstimators able = able_estimators(registry, world.estimators, *run.log);
-  if (able.choices.empty() && !able.notes.empty())
-    throw BadInput(fmt::format(
-        "{}: the observations do not say which landmark they are of, and no estimator here can do "
-        "without that; type {}",
-        run.log->name, remedy(types_without_names(registry))));
+                    AbleEstimators able) {
   run.believers->estimators = make_estimators(registry, able.choices, *run.log, world.seed);
   run.plan.notes = std::move(able.notes);
   run.plan.seed = world.seed;
   run.plan.scoring = world.scoring;
-}
-
-/// The estimator that steers must not have been left out.
-void check_steering(const worlds::World& world, const Believers& believers) {
-  const std::string& name = world.drive.pose_from;
-  if (name == "truth" || name == "odometry") return;
-  if (std::ranges::find(believers.estimators, name, &LiveEstimator::name) == believers.estimators.end())
-    throw BadInput(fmt::format(
-        "drive.pose_from: {} cannot steer: the observations do not name their landmarks, and it needs that",
-        name));
 }
 
 }  // namespace
@@ -63,10 +43,9 @@ PreparedRun prepare_run(const worlds::World& world, const seif::Registry& regist
   run.believers = std::make_unique<Believers>();
   set_stream(run,
              std::make_unique<SimulatedStream>(world, steering_pose(world.drive.pose_from, *run.believers)));
-  set_estimators(run, world, registry, [](const std::vector<std::string>& types) {
-    return fmt::format("--set 'estimators={{{}: {{}}}}'", fmt::join(types, ": {}, "));
-  });
-  check_steering(world, *run.believers);
+  AbleEstimators able = some_able_estimators(registry, world, *run.log);
+  check_steering(world, able);
+  set_estimators(run, world, registry, std::move(able));
   run.plan.name = world.name;
   run.plan.end_t = world.duration;
   return run;
@@ -81,9 +60,10 @@ PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, con
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
   set_stream(run, open_log(log));
-  set_estimators(run, world, registry, [](const std::vector<std::string>& types) {
+  const Remedy remedy = [](const std::vector<std::string>& types) {
     return fmt::format("--estimators {}", fmt::join(types, ","));
-  });
+  };
+  set_estimators(run, world, registry, some_able_estimators(registry, world.estimators, *run.log, remedy));
   run.plan.name = run.log->name;
   return run;
 }

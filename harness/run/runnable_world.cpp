@@ -1,10 +1,12 @@
 #include "harness/run/runnable_world.hpp"
 
+#include <cstddef>
 #include <exception>
 #include <span>
 
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/run/live_loop.hpp"
+#include "harness/run/without_names.hpp"
 #include "harness/simulation/simulated_stream.hpp"
 #include "worlds/check.hpp"
 
@@ -12,16 +14,35 @@ namespace harness {
 
 namespace {
 
-void check_estimators(const worlds::Node& document, const worlds::World& world,
-                      const seif::Registry& registry, std::vector<worlds::Problem>& problems) {
-  const LogDescription log = description_without_truth(world);
-  for (const worlds::EstimatorChoice& choice : world.estimators) {
-    try {
-      make_estimators(registry, std::span(&choice, 1), log, world.seed);
-    } catch (const std::exception& error) {
-      worlds::refuse_value(document, "estimators." + choice.name, error.what(), problems);
-    }
+using Problems = std::vector<worlds::Problem>;
+
+template <class Check>
+void refuse_if_thrown(const worlds::Node& document, const std::string& path, Problems& problems,
+                      const Check& check) {
+  try {
+    check();
+  } catch (const std::exception& error) {
+    worlds::refuse_value(document, path, error.what(), problems);
   }
+}
+
+/// As prepare_run will: one by one, so that each mistake has its place, and then together.
+void check_estimators(const worlds::Node& document, const worlds::World& world,
+                      const seif::Registry& registry, Problems& problems) {
+  const LogDescription log = description_without_truth(world);
+  const std::size_t before = problems.size();
+  for (const worlds::EstimatorChoice& choice : world.estimators) {
+    refuse_if_thrown(document, "estimators." + choice.name, problems, [&] {
+      make_estimators(registry, able_estimators(registry, std::span(&choice, 1), log).choices, log,
+                      world.seed);
+    });
+  }
+  if (problems.size() > before || world.estimators.empty()) return;
+  AbleEstimators able;
+  refuse_if_thrown(document, "estimators." + world.estimators.front().name, problems,
+                   [&] { able = some_able_estimators(registry, world, log); });
+  if (problems.size() > before) return;
+  refuse_if_thrown(document, "drive.pose_from", problems, [&] { check_steering(world, able); });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "harness/run/without_names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -29,6 +30,15 @@ std::string text_of(const seif::OptionValue& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
+/// The names of the types that can run without names by an option of theirs.
+std::vector<std::string> types_without_names(const seif::Registry& registry) {
+  std::vector<std::string> names;
+  for (const seif::EstimatorType& type : registry.types()) {
+    if (option_without_names(type) != nullptr) names.push_back(type.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 AbleEstimators able_estimators(const seif::Registry& registry,
@@ -54,12 +64,32 @@ AbleEstimators able_estimators(const seif::Registry& registry,
   return able;
 }
 
-std::vector<std::string> types_without_names(const seif::Registry& registry) {
-  std::vector<std::string> names;
-  for (const seif::EstimatorType& type : registry.types()) {
-    if (option_without_names(type) != nullptr) names.push_back(type.name);
-  }
-  return names;
+AbleEstimators some_able_estimators(const seif::Registry& registry,
+                                    std::span<const worlds::EstimatorChoice> choices,
+                                    const LogDescription& log, const Remedy& remedy) {
+  AbleEstimators able = able_estimators(registry, choices, log);
+  if (able.choices.empty() && !able.notes.empty())
+    throw BadInput(fmt::format(
+        "{}: the observations do not say which landmark they are of, and no estimator here can do "
+        "without that; type {}",
+        log.name, remedy(types_without_names(registry))));
+  return able;
+}
+
+AbleEstimators some_able_estimators(const seif::Registry& registry, const worlds::World& world,
+                                    const LogDescription& log) {
+  return some_able_estimators(registry, world.estimators, log, [](const std::vector<std::string>& types) {
+    return fmt::format("--set 'estimators={{{}: {{}}}}'", fmt::join(types, ": {}, "));
+  });
+}
+
+void check_steering(const worlds::World& world, const AbleEstimators& able) {
+  const std::string& name = world.drive.pose_from;
+  if (name != "truth" && name != "odometry" &&
+      std::ranges::find(able.choices, name, &worlds::EstimatorChoice::name) == able.choices.end())
+    throw BadInput(fmt::format(
+        "drive.pose_from: {} cannot steer: the observations do not name their landmarks, and it needs that",
+        name));
 }
 
 }  // namespace harness

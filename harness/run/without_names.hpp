@@ -1,6 +1,7 @@
 // Which estimators a log whose observations do not name their landmarks can be given to.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,7 +22,19 @@ struct AbleEstimators {
 AbleEstimators able_estimators(const seif::Registry& registry,
                                std::span<const worlds::EstimatorChoice> choices, const LogDescription& log);
 
-/// The names of the types that can run on such a log by an option of theirs.
-std::vector<std::string> types_without_names(const seif::Registry& registry);
+/// What to type instead, given the names of the types that can run without names.
+using Remedy = std::function<std::string(const std::vector<std::string>& types)>;
+
+/// The same, but throws BadInput, with the remedy, if all estimators were left out.
+AbleEstimators some_able_estimators(const seif::Registry& registry,
+                                    std::span<const worlds::EstimatorChoice> choices,
+                                    const LogDescription& log, const Remedy& remedy);
+
+/// The same for a world.
+AbleEstimators some_able_estimators(const seif::Registry& registry, const worlds::World& world,
+                                    const LogDescription& log);
+
+/// Throws BadInput if the estimator that steers was left out.
+void check_steering(const worlds::World& world, const AbleEstimators& able);
 
 }  // namespace harness

@@ -143,6 +143,20 @@ TEST(Calls, AComparisonIsWrittenAndPrintedAlike) {
   EXPECT_EQ(call(folder, "compare world.yaml --seed 3 --out there").exit_code, 2) << "it is not empty";
 }
 
+// Some of the estimators can do without names: validate and run agree that the world is fine.
+TEST(Calls, HiddenIdsAreEnough) {
+  const TemporaryFolder folder;
+  write_tiny(folder);
+  const std::string hidden = "world.yaml --set sensors.landmark_sensor.ids=hidden";
+  EXPECT_EQ(call(folder, "validate " + hidden).exit_code, 0);
+  const Called run = call(folder, "run " + hidden);
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_NE(run.output.find("seif_report was left out"), std::string::npos) << run.output;
+  const std::string steered = hidden + " --set drive.pose_from=seif_report";
+  EXPECT_EQ(call(folder, "validate " + steered).errors, call(folder, "run " + steered).errors);
+  EXPECT_EQ(call(folder, "validate " + steered).exit_code, 2);
+}
+
 TEST(Calls, ASweepTakesASingleSeed) {
   const TemporaryFolder folder;
   write_tiny(folder);
