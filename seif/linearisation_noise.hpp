@@ -29,7 +29,7 @@ Eigen::Vector2d linearisation_noise(const InformationState& state, const Observa
 Eigen::Vector2d linearisation_noise(const Observation& observation, double heading_variance);
 
 /// A guess of the first function in a few operations: instead of C it takes the larger of the sensor's noise
-/// and the innovation.
+/// and the innovation. No bound: an error can be larger than what a single innovation shows.
 Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double heading_variance);
 
 /// The variance of the heading in (L L')^-1. [rad^2]

@@ -117,12 +117,12 @@ void Seif::join_equal(double t) {
   solve_window(t);
 }
 
-/// Computes the noise of the linearisation if a rough bound says that it may matter. Hence the usual update
-/// does no more work than without.
+/// Computes the noise of the linearisation if a rough guess says that it may matter. So the usual update pays
+/// no more for it than the variance of the heading: one triangular system.
 void Seif::allow_for_curvature(const Scan& scan) {
   is_curved_ = false;
-  if (options_.linearisation_noise <= 0.0 || keeper_->window_factor() == nullptr || factors_.empty()) return;
-  const double times = options_.linearisation_noise * options_.linearisation_noise / least_curvature;
+  if (noise_factor() == 0.0 || factors_.empty()) return;
+  const double times = noise_factor() / least_curvature;
   const double V = heading_variance(scan.t);
   is_curved_ = std::ranges::any_of(factors_, [&](const ObservationFactor& factor) {
     const Eigen::Vector2d rough = times * rough_linearisation_noise(factor, V);
@@ -133,6 +133,12 @@ void Seif::allow_for_curvature(const Scan& scan) {
   for (ObservationFactor& factor : factors_) set_noise(factor, noise_of(factor));
 }
 
+/// Of the variances of the linearisation. [-] 0 where nothing knows the covariance of the window.
+double Seif::noise_factor() const {
+  const bool is_known = keeper_->window_factor() != nullptr;
+  return is_known ? options_.linearisation_noise * options_.linearisation_noise : 0.0;
+}
+
 /// By the latest solution for the window. [rad^2]
 double Seif::heading_variance(double t) {
   if (keeper_->window_factor()->size == 0) solve_window(t);
@@ -141,8 +147,7 @@ double Seif::heading_variance(double t) {
 
 /// Given the latest solution for the window. [m^2, rad^2]
 Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
-  const double times = options_.linearisation_noise * options_.linearisation_noise;
-  return times * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
+  return noise_factor() * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
 }
 
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each
@@ -220,7 +225,6 @@ bool Seif::any_stale() {
 bool Seif::add_new(const Scan& scan) {
   const int known = state_.landmark_count();
   bool seen_once = true;
-  const bool adds_noise = options_.linearisation_noise > 0.0 && keeper_->window_factor() != nullptr;
   std::optional<double> V;
   for (const Observation& observation : scan.observations) {
     std::optional<int> slot = state_.find(observation.landmark);
@@ -235,10 +239,9 @@ bool Seif::add_new(const Scan& scan) {
       state_.mark_seen(*slot);
     }
     ObservationFactor factor = linearise(state_, *slot, observation, T_robot_sensor_);
-    if (adds_noise) {
+    if (noise_factor() > 0.0) {
       if (!V) V = heading_variance(scan.t);
-      set_noise(factor, options_.linearisation_noise * options_.linearisation_noise *
-                            linearisation_noise(observation, *V));
+      set_noise(factor, noise_factor() * linearisation_noise(observation, *V));
     }
     add(state_, factor);
   }

@@ -81,6 +81,7 @@ class Seif final : public InformationFilter {
   void activate_known(const Scan& scan);
   void join_equal(double t);
   void allow_for_curvature(const Scan& scan);
+  double noise_factor() const;
   double heading_variance(double t);
   Eigen::Vector2d noise_of(const ObservationFactor& factor);
   void check_innovations(double t);

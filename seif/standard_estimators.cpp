@@ -212,8 +212,7 @@ void add_linearisation(OptionTable<SeifOptions>& table) {
           "linearisation_noise", [](SeifOptions& o) -> double& { return o.linearisation_noise; },
           {.min = 0.0, .max = 100.0},
           "With the tree: what an observation lacks in linearity counts as noise, with this number of times "
-          "its "
-          "standard deviation; 0: not at all [-].")
+          "its standard deviation; 0: not at all [-].")
       .number(
           "closing_gate", [](SeifOptions& o) -> double& { return o.closing_gate; }, {.min = 0.0},
           "Linearises an observation at the measurement if the landmark is seen farther from its mean than "

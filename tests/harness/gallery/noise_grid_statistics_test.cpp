@@ -105,8 +105,8 @@ std::array<Cell, 2> cells_of(const Noise& noise) {
   return cells;
 }
 
-/// Where both filters are overconfident beyond use, and seif the more so: the sensor is accurate to less than a
-/// hundredth of the wheels' error between two scans, or to less than ten micrometres. docs/robustness.md says so.
+/// Where seif may be more overconfident than the EKF, as docs/robustness.md says: with wheels that tell nearly
+/// nothing between two scans, or a sensor that is accurate to ten micrometres.
 bool is_beyond_use(const Noise& noise) {
   if (noise.wheel > 10.0) return noise.range <= 0.1 && noise.bearing <= 0.1;
   return noise.range <= 1e-5 && noise.bearing <= 1e-5;
