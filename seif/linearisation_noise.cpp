@@ -59,10 +59,14 @@ Eigen::Vector2d linearisation_noise(const Observation& observation, double headi
 }
 
 Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double heading_variance) {
+  constexpr double most_squared = 9.0;  // [sigma^2] that the sensor alone explains
   const double d = std::max(factor.observation.range, nearest_range);
-  const Eigen::Vector2d squared = factor.observation.covariance.diagonal().cwiseMax(factor.v.cwiseAbs2());
-  return second_order({squared(0), d * d * squared(1), 0.0}, d, heading_variance) +
-         heading_variance * lever_error(factor).cwiseAbs2();
+  const Eigen::Vector2d Q = factor.observation.covariance.diagonal();
+  const Eigen::Vector2d squared = Q.cwiseMax(factor.v.cwiseAbs2());
+  const Eigen::Vector2d excess = (factor.v.cwiseAbs2() - most_squared * Q).cwiseMax(0.0);
+  const Eigen::Vector2d turned_by_heading(d * d * excess(1), excess(0) / (d * d));
+  return second_order({squared(0), d * d * squared(1), 0.0}, d, 0.0) +
+         heading_variance * (turned_by_heading + lever_error(factor).cwiseAbs2());
 }
 
 double heading_variance(const WindowFactor& window, Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch) {

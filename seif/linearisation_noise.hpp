@@ -28,8 +28,10 @@ Eigen::Vector2d linearisation_noise(const InformationState& state, const Observa
 /// The same for a landmark of which nothing but the observation is known. `heading_variance` [rad^2]
 Eigen::Vector2d linearisation_noise(const Observation& observation, double heading_variance);
 
-/// A guess of the first function in a few operations: instead of C it takes the larger of the sensor's noise
-/// and the innovation. No bound: an error can be larger than what a single innovation shows.
+/// A guess of the first function in a few operations. Instead of C it takes the larger of the sensor's noise and
+/// the innovation, and beside V what an innovation has beyond three sigma: then the guess, and with it the work,
+/// does not grow with the uncertainty of the heading along a drive. No bound: an error can be larger than what a
+/// single innovation shows.
 Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double heading_variance);
 
 /// The variance of the heading in (L L')^-1. [rad^2]
