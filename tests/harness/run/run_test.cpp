@@ -86,18 +86,6 @@ TEST(Run, AReplayGivesTheSameBytesButForTimes) {
   EXPECT_EQ(compared, 16);  // eight of the log and its trajectories, four of each estimator
 }
 
-TEST(Run, AnEstimatorThatNeedsNamesIsRefusedWhereThereAreNone) {
-  const TemporaryFolder folder;
-  worlds::World world = small_world();
-  world.landmark_sensor.ids = worlds::LandmarkIds::hidden;
-  try {
-    run_live(world, folder / "live");
-    FAIL() << "was accepted";
-  } catch (const BadInput& error) {
-    EXPECT_NE(std::string(error.what()).find("do not say which landmark"), std::string::npos) << error.what();
-  }
-}
-
 // It is scored like any other run, each time the same, and a replay gives the estimates of the live run.
 TEST(Run, InTheKinematicEngineIsARunLikeAnyOther) {
   const TemporaryFolder folder;
