@@ -82,6 +82,29 @@ std::string without_truth(const std::filesystem::path& run) {
       poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
 }
 
+/// Adds a reference to the scores, or why it is missing. Throws BadInput if it cannot be asked for at all.
+void add_reference(const std::string& name, const ScoreArguments& arguments, const seif::Registry& registry,
+                   Summary& summary, RunDetails& details) {
+  try {
+    const ReferenceScore reference =
+        score_reference(name, arguments.folder, summary, arguments.details, registry);
+    if (is_optimum(name) && details.reference.empty()) {
+      details.reference = name;
+      for (EstimatorDetails& estimator : details.estimators)
+        estimator.from_reference =
+            distance_from_reference(arguments.folder, estimator.name, reference.estimate);
+    }
+    summary.score.estimators.push_back(reference.score);
+    summary.failures.emplace_back();
+    details.estimators.push_back(reference.details);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "seifbed: the reference {} is missing: {}\n", name, error.what());
+    details.missing_references.emplace_back(name, error.what());
+  }
+}
+
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
@@ -97,19 +120,11 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   if (arguments.every_update) choices.consistency = replayed.path();
   RunDetails details = score_details(folder, names, choices);
   for (std::size_t i = 0; i < names.size(); ++i) details.estimators.at(i).rebuilt = rebuilt.at(i);
-  for (const std::string& name : arguments.references) {
-    const ReferenceScore reference = score_reference(name, folder, summary, arguments.details, registry);
-    if (is_optimum(name) && details.reference.empty()) {
-      details.reference = name;
-      for (EstimatorDetails& estimator : details.estimators)
-        estimator.from_reference = distance_from_reference(folder, estimator.name, reference.estimate);
-    }
-    summary.score.estimators.push_back(reference.score);
-    summary.failures.emplace_back();
-    details.estimators.push_back(reference.details);
-  }
-  if (arguments.json) return print_all(to_json(summary, details), 0);
-  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), 0);
+  for (const std::string& name : arguments.references)
+    add_reference(name, arguments, registry, summary, details);
+  const int code = details.missing_references.empty() ? 0 : 1;
+  if (arguments.json) return print_all(to_json(summary, details), code);
+  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), code);
 }
 
 int score_any(ScoreArguments arguments, const seif::Registry& registry) {

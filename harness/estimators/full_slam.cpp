@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -127,6 +129,58 @@ class SightingCost final : public ceres::SizedCostFunction<2, 3, 2> {
   Eigen::Matrix2d W_;
 };
 
+/// True if the landmark may have been where the sensor is, as far as the measured range tells.
+bool is_at_the_sensor(const seif::Observation& observation) {
+  constexpr double far_enough = 4.0;  // [sigma]
+  return observation.range < far_enough * std::sqrt(observation.covariance(0, 0));
+}
+
+/// The residual of a sighting at the sensor, in Cartesian coordinates: W (R p - [range 0]'), where p is the
+/// landmark in the sensor's frame and R turns the measured bearing to the x axis. Range and bearing have no
+/// derivative where the landmark meets the sensor, and the bearing jumps by half a turn behind it; the least sum
+/// of squares may lie exactly there, and no search would converge. To the side, the standard deviation of the
+/// bearing counts at the measured range, or at the range's own standard deviation if that is more.
+class NearSightingCost final : public ceres::SizedCostFunction<2, 3, 2> {
+ public:
+  explicit NearSightingCost(const Sighting& sighting) : sighting_(sighting) {
+    const seif::Observation& z = sighting.observation;
+    const Eigen::Vector2d metres(1.0, std::max(z.range, std::sqrt(z.covariance(0, 0))));
+    W_ = whitening<2>(metres.asDiagonal() * z.covariance * metres.asDiagonal());
+    p_measured_ = {z.range, 0.0};
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const seif::Pose2 T_world_pose = pose_of(parameters[0]);
+    const Eigen::Vector2d from_pose =
+        Eigen::Vector2d(parameters[1][0], parameters[1][1]) - Eigen::Vector2d(T_world_pose.x, T_world_pose.y);
+    const seif::Pose2& mount = sighting_.T_pose_sensor;
+    const Eigen::Rotation2Dd R_pose_world(-T_world_pose.theta);
+    const Eigen::Rotation2Dd R_z_pose(-mount.theta - sighting_.observation.bearing);
+    const Eigen::Vector2d p_pose = R_pose_world * from_pose;
+    Eigen::Map<Eigen::Vector2d>{residuals} =
+        W_ * (R_z_pose * (p_pose - Eigen::Vector2d(mount.x, mount.y)) - p_measured_);
+    if (jacobians == nullptr) return true;
+    const Eigen::Matrix2d J = W_ * (R_z_pose * R_pose_world).toRotationMatrix();
+    if (jacobians[0] != nullptr) {
+      Eigen::Map<RowMajor23> J_pose{jacobians[0]};
+      J_pose.leftCols<2>() = -J;
+      J_pose.col(2) = W_ * (R_z_pose * Eigen::Vector2d(p_pose.y(), -p_pose.x()));
+    }
+    if (jacobians[1] != nullptr) Eigen::Map<RowMajor2>{jacobians[1]} = J;
+    return true;
+  }
+
+ private:
+  const Sighting& sighting_;
+  Eigen::Matrix2d W_;
+  Eigen::Vector2d p_measured_;
+};
+
+ceres::CostFunction* cost_of(const Sighting& sighting) {
+  if (is_at_the_sensor(sighting.observation)) return new NearSightingCost(sighting);
+  return new SightingCost(sighting);
+}
+
 /// The unknowns, in memory that Ceres modifies.
 struct Unknowns {
   std::vector<Eigen::Vector3d> poses;
@@ -148,7 +202,7 @@ void add_terms(const FullSlam& slam, Unknowns& unknowns, ceres::Problem& problem
                              unknowns.pose(i), unknowns.pose(i + 1));
   }
   for (const Sighting& sighting : slam.sightings) {
-    problem.AddResidualBlock(new SightingCost(sighting), loss_of(slam), unknowns.pose(sighting.pose),
+    problem.AddResidualBlock(cost_of(sighting), loss_of(slam), unknowns.pose(sighting.pose),
                              unknowns.landmark(sighting.landmark));
   }
 }

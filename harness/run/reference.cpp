@@ -8,6 +8,7 @@
 #include "harness/estimators/batch.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_writer.hpp"
+#include "harness/readers/open_log.hpp"
 #include "harness/recording/recorder.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/rebuilding.hpp"
@@ -54,6 +55,8 @@ ReferenceScore score_reference(const std::string& name, const std::filesystem::p
   if (std::ranges::find(summary.score.estimators, name, &EstimatorScore::name) !=
       summary.score.estimators.end())
     throw BadInput(fmt::format("--reference {}: the run has an estimator of this name", name));
+  if (!open_log(LogChoice{.path = run})->description().known_association)
+    throw std::runtime_error("the observations do not name their landmarks");
   const TemporaryFolder folder;
   Rebuilding rebuilding{.run = run, .to = folder.path(), .estimators = {name}, .is_other = true};
   if (is_optimum(name)) {

@@ -27,7 +27,8 @@ bool is_optimum(std::string_view reference);
 
 /// Replays a run for a reference and scores it. An optimum is solved for once, at the end; map, belief and
 /// trajectory are then the optimum's, and its costs are empty. Throws BadInput if the run has an estimator of
-/// that name or the reference cannot be made, and std::runtime_error if no optimum is found.
+/// that name or the reference cannot be made, and std::runtime_error if no optimum is found, or if
+/// the observations do not name their landmarks.
 ReferenceScore score_reference(const std::string& name, const std::filesystem::path& run,
                                const Summary& summary, const DetailChoices& choices,
                                const seif::Registry& registry);

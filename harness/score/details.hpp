@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/files/text_table.hpp"
@@ -42,9 +43,10 @@ struct EstimatorDetails {
 
 struct RunDetails {
   DetailChoices choices;
-  std::string reference;      // name of the reference; empty: the user asked for none
-  std::size_t closures = 0;   // [-]
-  EstimatorDetails odometry;  // its trajectory only
+  std::string reference;  // name of the reference; empty: there is none
+  std::vector<std::pair<std::string, std::string>> missing_references = {};  // name, and why it is missing
+  std::size_t closures = 0;                                                  // [-]
+  EstimatorDetails odometry;                                                 // its trajectory only
   std::vector<EstimatorDetails> estimators;
 };
 

@@ -145,6 +145,7 @@ std::string to_json(const Summary& summary, const RunDetails& details) {
   json["nees_landmark_band"] = band(2);
   json["loop_closures"] = details.closures;
   json["loop_closure_away_s"] = details.choices.away;
+  for (const auto& [name, why] : details.missing_references) json["missing_references"][name] = why;
   add_trajectory(details, details.odometry, json["odometry"]);
   for (const EstimatorDetails& estimator : details.estimators)
     add_estimator(details, estimator, json["estimators"][estimator.name]);
@@ -184,6 +185,8 @@ std::string details_board(const RunDetails& details) {
   const std::vector<std::vector<TextRow>> tables = details_tables(details);
   std::string text = text_table(tables[0]) + '\n' + text_table(tables[1]) + '\n' + text_table(tables[2]);
   if (!details.reference.empty()) text += '\n' + text_table(tables.back());
+  for (const auto& [name, why] : details.missing_references)
+    text += fmt::format("\nThe reference {} is missing: {}\n", name, why);
   if (details.closures == 0) return text + "\nNo loop closes.\n";
   return text +
          fmt::format("\nError of the position [m], {} closures\n{}", details.closures, text_table(tables[3]));

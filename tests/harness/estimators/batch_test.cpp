@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -437,6 +438,42 @@ TEST(Compose, CarriesTheCovarianceToFirstOrder) {
   EXPECT_EQ(both.t, 2.0);
   EXPECT_LT(pose_error(both.T_previous_current, first.T_previous_current * second.T_previous_current).norm(),
             1e-15);
+}
+
+/// A robot drives 10 m along the x axis, over a landmark at (5, 0), past two others. The ranges of the first are
+/// 6 cm too short before it and too long behind it, so it seems to be at 4.94 m. Where the robot is over it, at
+/// 5 m, the measured range is zero, and its bearing says that it is ahead.
+FullSlam drive_over_a_landmark() {
+  const std::vector<Vector2d> landmarks = {{5.0, 0.0}, {3.0, 4.0}, {7.0, -4.0}};
+  FullSlam slam;
+  slam.start.covariance = 1e-8 * Matrix3d::Identity();
+  slam.landmark_count = 3;
+  for (int pose = 0; pose <= 20; ++pose) {
+    const double x = 0.5 * pose;
+    if (pose > 0) slam.motions.push_back({0.0, {0.5, 0.0, 0.0}, Vector3d(4e-4, 4e-4, 8e-5).asDiagonal()});
+    for (int landmark = 0; landmark < 3; ++landmark) {
+      const Vector2d away = landmarks[static_cast<std::size_t>(landmark)] - Vector2d(x, 0.0);
+      const double error = landmark > 0 || pose == 10 ? 0.0 : (pose < 10 ? -0.06 : 0.06);
+      const double bearing = pose == 10 && landmark == 0 ? 0.3 : std::atan2(away.y(), away.x());
+      slam.sightings.push_back(
+          {pose, landmark, {}, {landmark, away.norm() + error, bearing, Vector2d(0.01, 3e-4).asDiagonal()}});
+    }
+  }
+  return slam;
+}
+
+TEST(FullSlamOptimum, IsFoundWhereARobotDrivesOverALandmark) {
+  const FullSlam slam = drive_over_a_landmark();
+  std::vector<Pose2> poses;
+  for (int pose = 0; pose <= 20; ++pose) poses.push_back({0.5 * pose, 0.0, 0.0});
+  const std::vector<Vector2d> map = {{5.0, 0.02}, {3.0, 4.0}, {7.0, -4.0}};
+  const FullSlamOptimum found = optimum(slam, poses, map);
+  EXPECT_NEAR(found.landmarks[0].x(), 4.94, 0.02);
+  EXPECT_NEAR(found.landmarks[0].y(), 0.0, 0.05);
+  const std::vector<Vector2d> other_map = {{4.8, -0.3}, {3.1, 4.1}, {6.8, -4.0}};
+  const FullSlamOptimum again = optimum(slam, poses, other_map);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR((again.landmarks[i] - found.landmarks[i]).norm(), 0.0, 1e-8) << i;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "harness/score/details.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -172,6 +173,20 @@ TEST_F(ScoreCommand, TheReferenceIsTheOptimumThatARunWithItHas) {
   EXPECT_TRUE(reference["update_us"]["p50"].is_null()) << "the times of its guide are not its own";
   EXPECT_NE(reference["ate_rmse_m"], with_it["ate_rmse_m"]) << "the trajectory is the optimum's";
   EXPECT_LT(reference["rpe_trans_m"], with_it["rpe_trans_m"]) << "which looks ahead";
+}
+
+TEST_F(ScoreCommand, AMissingReferenceLeavesTheOtherScores) {
+  test::call(folder, "run world.yaml --set sensors.landmark_sensor.ids=hidden --out nameless --quiet");
+  const test::Called called = test::call(folder, "score nameless --json --reference batch");
+  EXPECT_EQ(called.exit_code, 1);
+  const char* why = "the observations do not name their landmarks";
+  EXPECT_EQ(called.errors, fmt::format("seifbed: the reference batch is missing: {}\n", why));
+  const nlohmann::json json = nlohmann::json::parse(called.output);
+  EXPECT_EQ(json["missing_references"], (nlohmann::json{{"batch", why}}));
+  EXPECT_TRUE(json["estimators"]["ekf"]["nees_pose"].is_number());
+  EXPECT_FALSE(json["estimators"].contains("batch"));
+  const std::string board = test::call(folder, "score nameless --reference batch").output;
+  EXPECT_NE(board.find(fmt::format("\nThe reference batch is missing: {}\n", why)), std::string::npos);
 }
 
 TEST_F(ScoreCommand, ThePeerIsAReferenceWithItsTimes) {
