@@ -66,17 +66,6 @@ void make_whole(const std::filesystem::path& log, const std::filesystem::path& t
   execute(replay);
 }
 
-/// A note for the reader of the tables, if the log does not hold the truth.
-std::string without_truth(const std::filesystem::path& run) {
-  const bool poses = std::filesystem::exists(run / "truth.csv");
-  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
-  if (poses && landmarks) return "";
-  return fmt::format(
-      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
-      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
-      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
-}
-
 int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");

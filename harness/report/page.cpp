@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "harness/files/base64.hpp"
@@ -32,6 +33,19 @@ std::string facts_html(const std::vector<Fact>& facts) {
   for (const Fact& fact : facts)
     html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(fact.name), escaped(fact.value));
   return html + "</dl>";
+}
+
+std::string notes_html(std::string_view notes) {
+  std::string html;
+  while (!notes.empty()) {
+    const std::size_t end = std::min(notes.find("\n\n"), notes.size());
+    std::string_view paragraph = notes.substr(0, end);
+    notes.remove_prefix(std::min(end + 1, notes.size()));
+    while (paragraph.starts_with('\n')) paragraph.remove_prefix(1);
+    while (paragraph.ends_with('\n')) paragraph.remove_suffix(1);
+    if (!paragraph.empty()) html += fmt::format("<p>{}</p>\n", escaped(paragraph));
+  }
+  return html.empty() ? html : fmt::format("<section class=\"notes\">\n<h2>Notes</h2>\n{}</section>\n", html);
 }
 
 std::string row_html(const TextRow& row, const char* first, const char* other) {
@@ -166,6 +180,7 @@ std::string to_html(const Page& page, const std::filesystem::path& file, std::st
   return filled(page_html(), {{"title", escaped(page.title)},
                               {"style", std::string(page_css())},
                               {"facts", facts_html(page.facts)},
+                              {"notes", notes_html(page.notes)},
                               {"tables", joined(page.tables, table_html)},
                               {"details", joined(page.details, table_html)},
                               {"figures", joined(page.figures, figure_html)},

@@ -33,6 +33,7 @@ struct Listing {
 struct Page {
   std::string title = {};
   std::vector<Fact> facts = {};
+  std::string notes = {};           // paragraphs, with an empty line between them
   std::vector<Table> tables = {};   // above the figures
   std::vector<Table> details = {};  // below the figures
   std::vector<Figure> figures = {};

@@ -50,10 +50,6 @@ std::vector<Fact> facts_of(const Summary& summary) {
                              {"Made by version", summary.version},
                              {"Trajectory hash", summary.trajectory_hash}};
   if (summary.interrupted) facts.push_back({"Interrupted", "before its end"});
-  for (std::size_t i = 0; i < summary.failures.size(); ++i) {
-    if (!summary.failures[i].empty())
-      facts.push_back({"Failed", summary.score.estimators[i].name + " " + summary.failures[i]});
-  }
   return facts;
 }
 
@@ -151,6 +147,7 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
   Page page;
   page.title = fmt::format("{}, seed {}", summary.world, summary.seed);
   page.facts = facts_of(summary);
+  page.notes = scoreboard_notes(summary) + without_truth(folder);
   page.figures = run_figures(folder, drawn(names, types_of(folder, names, registry)));
   if (replays) add_replayed(folder, summary, registry, details, page);
   page.tables = tables_of(summary);

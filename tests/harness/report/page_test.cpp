@@ -43,6 +43,7 @@ TEST(Page, TextsOfUsersStayTexts) {
   Page page;
   page.title = evil;
   page.facts = {{evil, evil}};
+  page.notes = "\n" + evil + "\n";
   page.tables = {{evil, {{evil, evil}, {evil, evil}}, evil}};
   page.details = page.tables;
   page.figures = {{.id = "map", .title = evil, .caption = evil, .x = {evil}, .y = {evil}}};
@@ -56,6 +57,14 @@ TEST(Page, TextsOfUsersStayTexts) {
   EXPECT_FALSE(contains(html, "<script>alert"));
   EXPECT_TRUE(
       contains(html, "<title>&lt;script&gt;alert(&#39;&quot;&amp;&quot;&#39;)&lt;/script&gt;{{data}}"));
+}
+
+TEST(Page, HasAParagraphForEachOfTheNotes) {
+  Page page;
+  EXPECT_FALSE(contains(html_of(page), "<h2>Notes</h2>"));
+  page.notes = "\nfirst:\n  more of it\n\nsecond\n";
+  const std::string html = html_of(page);
+  EXPECT_TRUE(contains(html, "<p>first:\n  more of it</p>\n<p>second</p>\n</section>")) << html;
 }
 
 /// The JSON that the page's script reads.

@@ -89,6 +89,30 @@ TEST_F(ReportCommand, GoesWithoutAReplayAndWithoutTruth) {
   EXPECT_FALSE(contains(html, "id=\"position-error\""));
 }
 
+TEST_F(ReportCommand, SaysAllThatTheTerminalSays) {
+  run();
+  // The filter's own belief of the pose is made far too small, and one estimator has failed.
+  std::string rows = read_file(folder / "run" / "ekf_consistency.csv");
+  rows = rows.substr(0, rows.find('\n') + 1) + "10,5000,2,20,20,1000\n20,6000,2,20,20,1000\n";
+  test::write_file(folder / "run" / "ekf_consistency.csv", rows);
+  nlohmann::ordered_json summary = nlohmann::ordered_json::parse(read_file(folder / "run" / "summary.json"));
+  summary["estimators"]["seif_report"]["failure"] = "at 12 s: it was tired";
+  summary["left_out"] = {{"first_s", 3.5}, {"observations", 17}};
+  summary["log"] = {{"bridged", 4}};
+  test::write_file(folder / "run" / "summary.json", summary.dump());
+  std::filesystem::remove(folder / "run" / "landmarks.csv");
+  const std::string board = call(folder, "score run --no-replay").output;
+  report("run --no-replay");
+  const std::string html = read_file(folder / "run" / "report.html");
+  for (const char* line :
+       {"ekf diverged by 10 s: the NEES of its pose is above", "seif_report failed at 12 s: it was tired",
+        "Not given to the estimators, from 3.5 s on:\n  observations 17",
+        "Left out of the log, or bridged: bridged 4", "The log holds no truth of the landmarks"}) {
+    EXPECT_TRUE(contains(board, line)) << line << '\n' << board;
+    EXPECT_TRUE(contains(html, line)) << line;
+  }
+}
+
 TEST_F(ReportCommand, WritesAPageOfASweep) {
   call(folder,
        "sweep world.yaml --seeds 1..3 --vary estimators.seif_report.theta_x=4,6 --set duration_s=15 --out "
