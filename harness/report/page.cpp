@@ -35,6 +35,13 @@ std::string facts_html(const std::vector<Fact>& facts) {
   return html + "</dl>";
 }
 
+std::string description_html(const Description& description) {
+  const std::string text =
+      description.text.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(description.text));
+  return fmt::format("<section class=\"description\">\n<h2>{}</h2>\n{}{}</section>\n",
+                     escaped(description.title), text, facts_html(description.facts));
+}
+
 std::string notes_html(std::string_view notes) {
   std::string html;
   while (!notes.empty()) {
@@ -182,6 +189,7 @@ std::string to_html(const Page& page, const std::filesystem::path& file, std::st
                               {"facts", facts_html(page.facts)},
                               {"notes", notes_html(page.notes)},
                               {"tables", joined(page.tables, table_html)},
+                              {"descriptions", joined(page.descriptions, description_html)},
                               {"details", joined(page.details, table_html)},
                               {"figures", joined(page.figures, figure_html)},
                               {"matrices", matrices_html(page)},

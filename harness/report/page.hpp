@@ -30,12 +30,20 @@ struct Listing {
   std::string text = {};
 };
 
+/// Something in words: a text, and facts below it.
+struct Description {
+  std::string title = {};
+  std::string text = {};
+  std::vector<Fact> facts = {};
+};
+
 struct Page {
   std::string title = {};
   std::vector<Fact> facts = {};
-  std::string notes = {};           // paragraphs, with an empty line between them
-  std::vector<Table> tables = {};   // above the figures
-  std::vector<Table> details = {};  // below the figures
+  std::string notes = {};                      // paragraphs, with an empty line between them
+  std::vector<Table> tables = {};              // above the figures
+  std::vector<Description> descriptions = {};  // above the figures
+  std::vector<Table> details = {};             // below the figures
   std::vector<Figure> figures = {};
   std::vector<MatrixFigure> matrices = {};
   std::string matrices_note = {};

@@ -9,16 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/film/matrix_picture.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
+#include "harness/report/world_facts.hpp"
 #include "harness/run/rebuilding.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/score/details.hpp"
 #include "harness/score/scoreboard.hpp"
+#include "harness/stream/log_description.hpp"
+#include "worlds/load.hpp"
 
 namespace harness {
 
@@ -31,14 +35,33 @@ std::vector<std::string> names_of(const Summary& summary) {
 }
 
 /// The types of the estimators, if the run's settings give them; otherwise their names.
-std::vector<std::string> types_of(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                                  const seif::Registry& registry) {
+std::vector<std::string> types_of(const std::vector<std::string>& names,
+                                  const std::vector<worlds::EstimatorChoice>& choices) {
   std::vector<std::string> types = names;
-  const worlds::LoadResult settings = load_replay_settings(folder, {}, registry);
-  if (!settings.world) return types;
-  for (const worlds::EstimatorChoice& choice : settings.world->estimators)
-    std::ranges::replace(types, choice.name, choice.type);
+  for (const worlds::EstimatorChoice& choice : choices) std::ranges::replace(types, choice.name, choice.type);
   return types;
+}
+
+/// The world of a run; nothing if the folder has none, or one that this program does not understand.
+std::optional<worlds::World> world_of(const std::filesystem::path& folder, const seif::Registry& registry) {
+  if (!std::filesystem::exists(folder / "world.yaml")) return std::nullopt;
+  return worlds::load_world(folder / "world.yaml", {}, estimator_schemas(registry)).world;
+}
+
+/// Of world and estimators in words, what the folder tells.
+std::vector<Description> descriptions_of(const std::filesystem::path& folder,
+                                         const std::optional<worlds::World>& world,
+                                         const std::vector<worlds::EstimatorChoice>& choices) {
+  std::vector<Description> descriptions;
+  if (world) {
+    descriptions.push_back(describe(*world));
+  } else if (std::filesystem::exists(folder / "log.yaml")) {
+    LogDescription log;
+    read_yaml(folder / "log.yaml", log);
+    descriptions.push_back(describe(log));
+  }
+  if (!choices.empty()) descriptions.push_back(describe(choices));
+  return descriptions;
 }
 
 std::vector<Fact> facts_of(const Summary& summary) {
@@ -148,7 +171,12 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
   page.title = fmt::format("{}, seed {}", summary.world, summary.seed);
   page.facts = facts_of(summary);
   page.notes = scoreboard_notes(summary) + without_truth(folder);
-  page.figures = run_figures(folder, drawn(names, types_of(folder, names, registry)));
+  const std::optional<worlds::World> world = world_of(folder, registry);
+  const worlds::LoadResult settings = load_replay_settings(folder, {}, registry);
+  const std::vector<worlds::EstimatorChoice> choices =
+      settings.world ? settings.world->estimators : std::vector<worlds::EstimatorChoice>();
+  page.descriptions = descriptions_of(folder, world, choices);
+  page.figures = run_figures(folder, drawn(names, types_of(names, choices)), world ? &*world : nullptr);
   if (replays) add_replayed(folder, summary, registry, details, page);
   page.tables = tables_of(summary);
   page.details = tables_of(details);

@@ -54,7 +54,8 @@ TEST_F(ReportCommand, WritesAPageOfARun) {
   EXPECT_FALSE(contains(html, "<b>small"));
   for (const char* part :
        {"Chart.js v", "id=\"map\"", "id=\"nees-pose\"", "id=\"update-time\"", "<th scope=\"row\">ekf",
-        "id=\"matrix-ekf\"", "duration_s: 20", "data:video/mp4;base64,bW92aW5n"})
+        "id=\"matrix-ekf\"", "duration_s: 20", "<dd>20 s, seed 1</dd>", "<dt>seif_report</dt><dd>K: 10,",
+        "data:video/mp4;base64,bW92aW5n"})
     EXPECT_TRUE(contains(html, part)) << part;
   for (const char* network : {"src=\"http", "href=\"http", "@import", "url("})
     EXPECT_FALSE(contains(html, network)) << network;
@@ -274,6 +275,32 @@ TEST_F(ReportInBrowser, HidesAllCurvesOfANameAndTellsOfAPoint) {
   EXPECT_EQ(seen["before"].size(), expected.size() + 3) << "trajectory, landmarks and ellipses";
   EXPECT_EQ(seen["after"], expected);
   EXPECT_TRUE(contains(seen["tip"], ": ")) << seen["tip"];
+}
+
+TEST_F(ReportInBrowser, ALandmarkOfTheMapTellsWhichItIs) {
+  const nlohmann::json seen = look(R"(
+    const chart = charts[0];
+    chart.figure.curves.forEach((curve, i) => chart.setDatasetVisibility(i, curve.name === "ekf"));
+    chart.update("none");
+    const of = (mark) => chart.figure.curves.findIndex((curve) => curve.name === "ekf" && curve.mark === mark);
+    const frame = chart.canvas.getBoundingClientRect();
+    const pointAt = async ({ x, y }) => {
+      chart.canvas.dispatchEvent(new MouseEvent("mousemove", {
+        clientX: frame.left + x, clientY: frame.top + y, bubbles: true }));
+      await until(() => chart.tooltip?.opacity > 0);
+      return chart.tooltip.body[0].lines;
+    };
+    result.ids = chart.figure.curves[of("crosses")].landmarks.id;
+    result.mark = await pointAt(chart.getDatasetMeta(of("crosses")).data[0]);
+    result.ellipse = await pointAt(chart.getDatasetMeta(of("thin")).data[0]);)");
+  const nlohmann::json& mark = seen["mark"];
+  ASSERT_EQ(mark.size(), 5U) << mark;
+  EXPECT_EQ(mark[0], "ekf: landmark " + seen["ids"][0].dump());
+  for (std::size_t i = 1; i < mark.size(); ++i) {
+    const char* begin[] = {"", "estimate ", "truth ", "error ", "sigma "};
+    EXPECT_TRUE(mark[i].get<std::string>().starts_with(begin[i])) << mark;
+  }
+  EXPECT_TRUE(contains(seen["ellipse"][0], "landmark ")) << "not a point of the ellipse: " << seen["ellipse"];
 }
 
 TEST_F(ReportInBrowser, IsDarkWhereThePaperIs) {
