@@ -65,13 +65,15 @@ std::string row_html(const TextRow& row, const char* first, const char* other) {
 }
 
 std::string table_html(const Table& table) {
-  std::string html =
-      fmt::format("<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table>\n", escaped(table.title));
+  std::string html = fmt::format(
+      "<section>\n<h2>{0}</h2>\n<div class=\"wide\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"{0}\"><table>\n",
+      escaped(table.title));
   html += "<thead>\n" + row_html(table.rows.front(), "th scope=\"col\"", "th scope=\"col\"") +
           "</thead>\n<tbody>\n";
   for (std::size_t i = 1; i < table.rows.size(); ++i)
     html += row_html(table.rows[i], "th scope=\"row\"", "td");
-  html += "</tbody>\n</table></div>\n";
+  html += "</tbody>\n</table></div></div>\n";
   if (!table.note.empty()) html += fmt::format("<p>{}</p>\n", escaped(table.note));
   return html + "</section>\n";
 }

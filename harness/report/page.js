@@ -397,10 +397,23 @@ function drawMatrix(matrix) {
   context.putImageData(image, 0, 0);
 }
 
+/// Shows at the edges of a wide table that it goes on there.
+function hintAtMore(box) {
+  const scroll = box.firstElementChild;
+  const mark = () => {
+    box.classList.toggle("more", scroll.scrollLeft + scroll.clientWidth < scroll.scrollWidth - 1);
+    box.classList.toggle("moved", scroll.scrollLeft > 0);
+  };
+  scroll.addEventListener("scroll", mark, { passive: true });
+  new ResizeObserver(mark).observe(scroll);
+  mark();
+}
+
 const data = JSON.parse(document.getElementById("data").textContent);
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 const charts = data.figures.map(draw);
 data.matrices.forEach(drawMatrix);
+document.querySelectorAll(".wide").forEach(hintAtMore);
 dark.addEventListener("change", () => {
   for (const chart of charts) {
     colourise(chart);

@@ -137,6 +137,12 @@ TEST_F(ReportCommand, WritesAPageOfAStressTest) {
   const std::string html = read_file(folder / "stressed" / "report.html");
   for (const char* part : {"id=\"time\"", "100, seif update", "150, seif", "simulated second"})
     EXPECT_TRUE(contains(html, part)) << part;
+  const nlohmann::json stress = nlohmann::json::parse(read_file(folder / "stressed" / "stress.json"));
+  for (const nlohmann::json& row : stress["rows"]) {
+    const std::string counts = "<td>" + row["warm_start"]["updates"].dump() + "</td><td>" +
+                               row["warm_start"]["seen"].dump() + "</td><td>20</td>";
+    EXPECT_TRUE(contains(html, counts)) << "warm start, landmarks seen, measured: " << counts;
+  }
   test::write_file(folder / "stressed" / "stress.json", "{}");
   EXPECT_EQ(call(folder, "report stressed").exit_code, 2);
 }
@@ -203,11 +209,26 @@ TEST_F(ReportInBrowser, DrawsAllWithoutANetwork) {
 TEST_F(ReportInBrowser, FitsOnAPhone) {
   const nlohmann::json seen = look(R"(
     result.page = document.documentElement.scrollWidth;
+    const wide = document.querySelector(".wide");
+    const scroll = wide.firstElementChild;
+    const turn = async (left) => {
+      scroll.scrollLeft = left;
+      await until(() => wide.classList.contains("more") === (left === 0));
+      const first = scroll.querySelector("tbody th").getBoundingClientRect();
+      return { more: wide.classList.contains("more"), first: first.left - scroll.getBoundingClientRect().left };
+    };
+    result.wider = scroll.scrollWidth > scroll.clientWidth;
+    result.begin = await turn(0);
+    result.end = await turn(10000);
     result.window = window.innerWidth;
     result.canvas = Math.max(...charts.map((chart) => chart.width));)",
-                                   {.width = 500});  // the browser's narrowest window
+                                   {.width = 360});
   EXPECT_LE(seen["page"], seen["window"]);
   EXPECT_LE(seen["canvas"], seen["window"]);
+  EXPECT_TRUE(seen["wider"]) << "the table scrolls in its box";
+  EXPECT_TRUE(seen["begin"]["more"]) << "and its edge says so";
+  EXPECT_FALSE(seen["end"]["more"]);
+  EXPECT_NEAR(seen["end"]["first"], 0.0, 0.5) << "the first column stays";
 }
 
 TEST_F(ReportInBrowser, AMapHasMetresAsLongAlongBothAxes) {
