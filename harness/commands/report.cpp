@@ -7,6 +7,7 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/figures/figure_plot.hpp"
+#include "harness/figures/gnuplot.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/report/pages.hpp"
 
@@ -20,6 +21,7 @@ struct ReportArguments {
   std::string figures;  // folder for PNG and SVG; empty: write no figures
   std::string library;  // path of Chart.js; empty: where packages install it
   bool no_replay = false;
+  bool force = false;
 };
 
 /// The paths where Debian and others install Chart.js.
@@ -39,8 +41,10 @@ std::string read_library(const std::string& file) {
 }
 
 /// Draws each figure as PNG and SVG. If one cannot be drawn, prints a line to stderr and returns false.
-bool draw_figures(const Page& page, const std::filesystem::path& folder) {
+bool draw_figures(const Page& page, const std::filesystem::path& folder, Existing existing) {
   std::filesystem::create_directories(folder);
+  for (const Figure& figure : page.figures) check_picture(folder, figure.id, existing);
+  for (const MatrixFigure& matrix : page.matrices) check_picture(folder, matrix.id, existing);
   std::string complaint;
   for (const Figure& figure : page.figures) {
     if (complaint.empty()) complaint = draw(figure, folder);
@@ -55,11 +59,15 @@ bool draw_figures(const Page& page, const std::filesystem::path& folder) {
 int report(const ReportArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path folder = arguments.folder;
   const std::string library = read_library(arguments.library);
+  const std::filesystem::path usual = folder / "report.html";
+  const std::filesystem::path file = arguments.out.empty() ? usual : std::filesystem::path(arguments.out);
+  const Existing others = arguments.force ? Existing::replace : Existing::keep;
+  const bool is_usual = file.lexically_normal() == usual.lexically_normal();  // this page, made again
+  const Existing existing = is_usual ? Existing::replace : others;
+  check_output(file, existing);
   const Page page = page_of(folder, registry, !arguments.no_replay);
-  const std::filesystem::path file =
-      arguments.out.empty() ? folder / "report.html" : std::filesystem::path(arguments.out);
-  write_whole_file(file, to_html(page, file, library));
-  const bool drawn = arguments.figures.empty() || draw_figures(page, arguments.figures);
+  write_whole_file(file, to_html(page, file, library), existing);
+  const bool drawn = arguments.figures.empty() || draw_figures(page, arguments.figures, others);
   return print_all(fmt::format("Written to {}\n", file.string()), drawn ? 0 : 1);
 }
 
@@ -80,7 +88,8 @@ void add_report(CommandLine line) {
   command->add_option("FOLDER", arguments->folder, "Folder of a run, a replay, a sweep or a stress test")
       ->required();
   command->add_option("--out", arguments->out,
-                      "File to write; by default report.html in the folder. An older one is replaced");
+                      "File to write; by default report.html in the folder, where an older one is replaced");
+  command->add_flag("--force", arguments->force, "Replace other files that are there already");
   command->add_option("--figures", arguments->figures, "Folder for each figure as PNG and SVG, by gnuplot");
   command->add_option("--chart-js", arguments->library,
                       "The file chart.min.js of Chart.js 3, where it is not from Debian's package");
