@@ -15,6 +15,7 @@
 #include "harness/comparison/seeds.hpp"
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
+#include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/terminal/version.hpp"
@@ -30,6 +31,7 @@ struct CompareArguments {
   std::string baseline;             // empty: the ekf, otherwise the first
   int jobs = 1;
   std::string keep;  // empty: the run folders are deleted
+  std::string out;   // folder for the tables and comparison.json; empty: none
   bool json = false;
   bool quiet = false;
 };
@@ -120,6 +122,12 @@ std::optional<std::vector<PlannedRun>> plan_logs(CompareArguments& arguments, co
   return planned;
 }
 
+/// Writes what is printed, as tables and as JSON.
+void write_comparison(const Comparison& comparison, const std::filesystem::path& folder) {
+  write_whole_file(folder / "comparison.txt", comparison_board(comparison));
+  write_whole_file(folder / "comparison.json", to_json(comparison));  // last: the folder is complete
+}
+
 int compare(CompareArguments arguments, const seif::Registry& registry) {
   Comparison comparison;
   const bool are_logs = std::filesystem::is_directory(arguments.inputs.front());
@@ -128,16 +136,19 @@ int compare(CompareArguments arguments, const seif::Registry& registry) {
   const std::optional<std::vector<PlannedRun>> planned =
       are_logs ? plan_logs(arguments, registry, comparison) : plan_seeds(arguments, registry, comparison);
   if (!planned) return 2;
+  if (!arguments.out.empty()) create_empty_folder(arguments.out);
   if (!arguments.keep.empty()) create_empty_folder(arguments.keep);
   FinishedRuns finished = execute_all(*planned, arguments.jobs, arguments.quiet || arguments.json);
   comparison.runs = std::move(finished.runs);
   comparison.interrupted = finished.interrupted;
   compare_estimators(comparison);
+  if (!arguments.out.empty()) write_comparison(comparison, arguments.out);
   std::string text;
   if (arguments.json) {
     text = to_json(comparison);
   } else if (!arguments.quiet) {
     text = comparison_board(comparison);
+    if (!arguments.out.empty()) text += fmt::format("\nWritten to {}\n", arguments.out);
   }
   return print_all(text, exit_code(comparison));
 }
@@ -174,6 +185,8 @@ void add_compare(CommandLine line) {
   command->add_option("--jobs", arguments->jobs, "Runs at the same time")
       ->check(CLI::Range(1, 256))
       ->type_name("INT");
+  command->add_option("--out", arguments->out,
+                      "Folder to write to: comparison.txt, the tables, and comparison.json, everything");
   command->add_option("--keep", arguments->keep, "Keep the run folders in this folder");
   command->add_flag("--json", arguments->json, "Print everything as JSON, with every run's summary");
   command->add_flag("--quiet", arguments->quiet, "Print errors only");

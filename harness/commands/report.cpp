@@ -74,18 +74,21 @@ int report(const ReportArguments& arguments, const seif::Registry& registry) {
 }  // namespace
 
 void add_report(CommandLine line) {
-  CLI::App* command =
-      line.app.add_subcommand("report", "Write a page with everything about a run, a sweep or a stress test");
+  CLI::App* command = line.app.add_subcommand(
+      "report", "Write a page with everything about a run, a sweep, a comparison or a stress test");
   command->footer(
       "Examples:\n"
       "  seifbed report runs/courtyard-1\n"
       "  seifbed report runs/loop-1 --out loop.html --figures figures\n"
       "  seifbed report theta                    # the folder of a sweep\n"
       "  seifbed report runs/stress\n"
+      "  seifbed report runs/paper               # the folder of seifbed paper, or of compare --out\n"
       "The page is one HTML file that needs no network: scores, plots to zoom into, the world.\n"
       "What it shows is described in docs/reports.md.");
   auto arguments = std::make_shared<ReportArguments>();
-  command->add_option("FOLDER", arguments->folder, "Folder of a run, a replay, a sweep or a stress test")
+  command
+      ->add_option("FOLDER", arguments->folder,
+                   "Folder of a run, a replay, a sweep, a stress test, of paper, or of compare's --out")
       ->required();
   command->add_option("--out", arguments->out,
                       "File to write; by default report.html in the folder, where an older one is replaced");

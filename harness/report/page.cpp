@@ -131,6 +131,16 @@ std::string film_html(const std::optional<std::filesystem::path>& film, const st
          "</section>\n";
 }
 
+std::string image_html(const PageImage& image) {
+  const std::string bytes = read_whole_file(image.file);
+  return fmt::format(
+      "<section>\n<h2>{0}</h2>\n<figure>\n<img class=\"film\" alt=\"{0}\" "
+      "src=\"data:image/{1};base64,{2}\">\n"
+      "<figcaption><p>{3}</p></figcaption>\n</figure>\n</section>\n",
+      escaped(image.title), image.file.extension() == ".svg" ? "svg+xml" : "png",
+      base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}), escaped(image.caption));
+}
+
 std::string listing_html(const Listing& listing) {
   return fmt::format("<details><summary>{}</summary>\n<pre>{}</pre></details>\n", escaped(listing.title),
                      escaped(listing.text));
@@ -194,6 +204,7 @@ std::string to_html(const Page& page, const std::filesystem::path& file, std::st
                               {"descriptions", joined(page.descriptions, description_html)},
                               {"details", joined(page.details, table_html)},
                               {"figures", joined(page.figures, figure_html)},
+                              {"images", joined(page.images, image_html)},
                               {"matrices", matrices_html(page)},
                               {"film", film_html(page.film, file)},
                               {"listings", joined(page.listings, listing_html)},

@@ -30,6 +30,13 @@ struct Listing {
   std::string text = {};
 };
 
+/// A picture that the page includes, from a file of the folder.
+struct PageImage {
+  std::string title = {};
+  std::string caption = {};
+  std::filesystem::path file;  // SVG or PNG
+};
+
 /// Something in words: a text, and facts below it.
 struct Description {
   std::string title = {};
@@ -45,6 +52,7 @@ struct Page {
   std::vector<Description> descriptions = {};  // above the figures
   std::vector<Table> details = {};             // below the figures
   std::vector<Figure> figures = {};
+  std::vector<PageImage> images = {};
   std::vector<MatrixFigure> matrices = {};
   std::string matrices_note = {};
   std::optional<std::filesystem::path> film;  // MP4, WebM or GIF

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/film/matrix_picture.hpp"
@@ -22,7 +21,6 @@
 #include "harness/score/details.hpp"
 #include "harness/score/scoreboard.hpp"
 #include "harness/stream/log_description.hpp"
-#include "worlds/load.hpp"
 
 namespace harness {
 
@@ -40,12 +38,6 @@ std::vector<std::string> types_of(const std::vector<std::string>& names,
   std::vector<std::string> types = names;
   for (const worlds::EstimatorChoice& choice : choices) std::ranges::replace(types, choice.name, choice.type);
   return types;
-}
-
-/// The world of a run; nothing if the folder has none, or one that this program does not understand.
-std::optional<worlds::World> world_of(const std::filesystem::path& folder, const seif::Registry& registry) {
-  if (!std::filesystem::exists(folder / "world.yaml")) return std::nullopt;
-  return worlds::load_world(folder / "world.yaml", {}, estimator_schemas(registry)).world;
 }
 
 /// Of world and estimators in words, what the folder tells.
@@ -190,11 +182,13 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays) {
   if (std::filesystem::exists(folder / "sweep.json")) return sweep_page(folder);
   if (std::filesystem::exists(folder / "stress.json")) return stress_page(folder);
+  if (std::filesystem::exists(folder / "paper.json")) return paper_page(folder, registry);
+  if (std::filesystem::exists(folder / "comparison.json")) return comparison_page(folder);
   if (std::filesystem::exists(folder / "summary.json")) return run_page(folder, registry, replays);
-  throw BadInput(
-      fmt::format("{}: is no folder of a run, a sweep or a stress test: there is no summary.json, "
-                  "sweep.json or stress.json",
-                  folder.string()));
+  throw BadInput(fmt::format(
+      "{}: is no folder of a run, a sweep, a stress test, a comparison or of seifbed paper: there "
+      "is no summary.json, sweep.json, stress.json, comparison.json or paper.json",
+      folder.string()));
 }
 
 }  // namespace harness

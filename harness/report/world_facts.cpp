@@ -8,8 +8,10 @@
 #include <string_view>
 #include <variant>
 
+#include "harness/estimators/estimator_schemas.hpp"
 #include "harness/statistics/degrees.hpp"
 #include "worlds/geometry.hpp"
+#include "worlds/load.hpp"
 
 namespace harness {
 
@@ -153,6 +155,11 @@ std::string choice_text(const worlds::EstimatorChoice& choice) {
 }
 
 }  // namespace
+
+std::optional<worlds::World> world_of(const std::filesystem::path& folder, const seif::Registry& registry) {
+  if (!std::filesystem::exists(folder / "world.yaml")) return std::nullopt;
+  return worlds::load_world(folder / "world.yaml", {}, estimator_schemas(registry)).world;
+}
 
 Description describe(const worlds::World& world) {
   const worlds::LandmarkSensor& sensor = world.landmark_sensor;

@@ -125,7 +125,9 @@ TEST(WorldFacts, SayInWordsWhatTheWorldFileSays) {
   world.landmark_sensor.range_sd_per_m = 0.01;
   world.landmark_sensor.bearing_sd = 2 * worlds::degree;
   world.landmark_sensor.miss_probability = 0.1;
-  world.faults = {{.kind = worlds::FaultKind::kidnapping, .at = 12}};
+  world.faults.resize(1);
+  world.faults[0].kind = worlds::FaultKind::kidnapping;
+  world.faults[0].at = 12;
   const Description about = describe(world);
   EXPECT_EQ(about.text, "a hall with pillars");
   const auto fact = [&](const std::string& name) {

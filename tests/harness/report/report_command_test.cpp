@@ -147,6 +147,39 @@ TEST_F(ReportCommand, WritesAPageOfAStressTest) {
   EXPECT_EQ(call(folder, "report stressed").exit_code, 2);
 }
 
+TEST_F(ReportCommand, WritesAPageOfAComparison) {
+  const Called compared = call(folder, "compare world.yaml --seeds 1..3 --set duration_s=60 --out compared");
+  ASSERT_EQ(compared.exit_code, 0) << compared.errors;
+  EXPECT_EQ(compared.output, read_file(folder / "compared" / "comparison.txt") + "\nWritten to compared\n");
+  nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(read_file(folder / "compared" / "comparison.json"));
+  json["runs"][1]["summary"]["estimators"]["ekf"]["failure"] = "at 5 s: gave up";
+  test::write_file(folder / "compared" / "comparison.json", json.dump());
+  report("compared");
+  const std::string html = read_file(folder / "compared" / "report.html");
+  for (const char* part : {"id=\"mse\"", "id=\"nees-pose\"", "id=\"links\"", "id=\"runs\"",
+                           "<th scope=\"col\">over ekf", "<th scope=\"row\">seif_report</th><td>3</td>",
+                           "-2: ekf failed at 5 s: gave up", "(comparison.txt)", "-3\n</pre>"})
+    EXPECT_TRUE(contains(html, part)) << part;
+  test::write_file(folder / "compared" / "comparison.json", "{}");
+  const Called broken = call(folder, "report compared");
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(contains(broken.errors, "compared/comparison.json: is no result of a comparison"))
+      << broken.errors;
+}
+
+TEST_F(ReportCommand, WritesAPageOfThePaper) {
+  ASSERT_EQ(call(folder, "paper --runs 2 --set duration_s=3 --out paper --quiet").exit_code, 0);
+  report("paper");
+  const std::string html = read_file(folder / "paper" / "report.html");
+  for (const char* part :
+       {"Section 4 of the 2002 report, report2002", "<th scope=\"row\">SEIF, constant time (seif_report)",
+        "6.35 +- 0.67", "id=\"nees-map\"", "id=\"runs\"", "src=\"data:image/svg+xml;base64,",
+        "Figure 6: the filters side by side", "(paper.txt)", "<dt>seif_exact</dt>"})
+    EXPECT_TRUE(contains(html, part)) << part;
+  EXPECT_FALSE(contains(html, "src=\"figure"));
+}
+
 TEST_F(ReportCommand, ListsWhatFailed) {
   call(folder, "sweep world.yaml --seeds 1..2 --out swept --quiet");
   test::write_file(folder / "swept" / "cells" / "000001.failed", "ended by signal 9 (Killed)");
