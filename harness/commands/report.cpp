@@ -40,11 +40,15 @@ std::string read_library(const std::string& file) {
       "where its chart.min.js is");
 }
 
-/// Draws each figure as PNG and SVG. If one cannot be drawn, prints a line to stderr and returns false.
-bool draw_figures(const Page& page, const std::filesystem::path& folder, Existing existing) {
-  std::filesystem::create_directories(folder);
+/// Throws BadInput if a figure may not be written there.
+void check_figures(const Page& page, const std::filesystem::path& folder, Existing existing) {
   for (const Figure& figure : page.figures) check_picture(folder, figure.id, existing);
   for (const MatrixFigure& matrix : page.matrices) check_picture(folder, matrix.id, existing);
+}
+
+/// Draws each figure as PNG and SVG. If one cannot be drawn, prints a line to stderr and returns false.
+bool draw_figures(const Page& page, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   std::string complaint;
   for (const Figure& figure : page.figures) {
     if (complaint.empty()) complaint = draw(figure, folder);
@@ -66,8 +70,9 @@ int report(const ReportArguments& arguments, const seif::Registry& registry) {
   const Existing existing = is_usual ? Existing::replace : others;
   check_output(file, existing);
   const Page page = page_of(folder, registry, !arguments.no_replay);
+  if (!arguments.figures.empty()) check_figures(page, arguments.figures, others);
   write_whole_file(file, to_html(page, file, library), existing);
-  const bool drawn = arguments.figures.empty() || draw_figures(page, arguments.figures, others);
+  const bool drawn = arguments.figures.empty() || draw_figures(page, arguments.figures);
   return print_all(fmt::format("Written to {}\n", file.string()), drawn ? 0 : 1);
 }
 

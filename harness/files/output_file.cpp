@@ -127,7 +127,8 @@ void rename_output(const std::filesystem::path& unfinished, const std::filesyste
 void write_whole_file(const std::filesystem::path& path, std::string_view text, Existing existing) {
   check_output(path, existing);
   std::filesystem::path unfinished = path;
-  unfinished += fmt::format(".{}.part", ::getpid());
+  unfinished += ".part";
+  check_output(unfinished, Existing::replace);
   std::filesystem::remove(unfinished);
   try {
     OutputFile file(unfinished);

@@ -123,6 +123,7 @@ TEST_F(Output, OfAReportAtItsUsualPlaceIsMadeAgain) {
   std::filesystem::create_directory(folder / "figures");
   std::filesystem::create_symlink("../file", folder / "figures/map.svg");
   EXPECT_EQ(test::call(folder, "report run --no-replay --out page.html --figures figures").exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "page.html"));
   EXPECT_EQ(test::read_file(folder / "file"), "old");
 }
 
