@@ -23,6 +23,7 @@ struct ExportArguments {
   std::string format;
   std::string estimator;  // empty: the first
   std::string out;        // empty: stdout
+  bool force = false;
 };
 
 /// The estimator that was asked for, or the first one. The names in `others` are allowed too.
@@ -60,9 +61,7 @@ int export_run(const ExportArguments& arguments) {
     print_data(text);
     return 0;
   }
-  if (std::filesystem::exists(arguments.out))
-    throw BadInput(fmt::format("{}: is there already", arguments.out));
-  write_whole_file(arguments.out, text);
+  write_whole_file(arguments.out, text, arguments.force ? Existing::replace : Existing::keep);
   return 0;
 }
 
@@ -87,6 +86,7 @@ void add_export(CommandLine line) {
       "Whose poses and landmarks; by default the first, with csv all; with tum also truth and "
       "odometry");
   command->add_option("--out", arguments->out, "File to write; by default it is printed");
+  command->add_flag("--force", arguments->force, "Replace the file if it is there already");
   command->callback([=, &code = line.exit_code] { code = guarded([&] { return export_run(*arguments); }); });
 }
 

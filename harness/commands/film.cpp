@@ -10,6 +10,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/film/film_folder.hpp"
 #include "harness/film/film_options.hpp"
+#include "harness/film/frame_sink.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
 #include "harness/terminal/messages.hpp"
@@ -22,6 +23,7 @@ struct FilmArguments {
   std::string folder;
   std::vector<std::string> overrides;
   FilmOptions film;
+  bool force = false;  // replaces files that are there already
   bool quiet = false;
 };
 
@@ -48,6 +50,7 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
                                   is_still ? arguments.film.at : arguments.film.from,
                                   is_still ? arguments.film.at : arguments.film.to);
   const std::filesystem::path file = file_of(arguments);
+  check_frame_sink(file, is_still, arguments.force ? Existing::replace : Existing::keep);
   const Clock::time_point begin = Clock::now();
   const FilmResult result = film_folder(
       *folder, log, make_frame_sink(file, {settings.width, settings.height, settings.fps}, is_still),
@@ -86,6 +89,7 @@ void add_film(CommandLine line) {
   add_film_options(*command, arguments->film);
   command->add_option("--set", arguments->overrides, "Set a value of the film section: film.key=value")
       ->allow_extra_args(false);
+  command->add_flag("--force", arguments->force, "Replace files that are there already");
   command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] { return film(*arguments, registry); });

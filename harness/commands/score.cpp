@@ -71,17 +71,6 @@ void make_whole(const std::filesystem::path& log, const std::filesystem::path& t
   execute(replay);
 }
 
-/// A note for the reader of the tables, if the log does not hold the truth.
-std::string without_truth(const std::filesystem::path& run) {
-  const bool poses = std::filesystem::exists(run / "truth.csv");
-  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
-  if (poses && landmarks) return "";
-  return fmt::format(
-      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
-      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
-      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
-}
-
 /// Adds a reference to the scores, or why it is missing. Throws BadInput if it cannot be asked for at all.
 void add_reference(const std::string& name, const ScoreArguments& arguments, const seif::Registry& registry,
                    Summary& summary, RunDetails& details) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/files/text_table.hpp"
 #include "harness/run/detailed_run.hpp"
 #include "harness/statistics/statistics.hpp"
 
@@ -65,6 +66,9 @@ int exit_code(const Comparison& comparison);
 
 /// The whole comparison as JSON, with the summary of every run.
 std::string to_json(const Comparison& comparison);
+
+/// The tables of the comparison: errors, consistency, map and cost.
+std::vector<std::vector<TextRow>> comparison_tables(const Comparison& comparison);
 
 /// The comparison as tables to read in a terminal, with the failures below.
 std::string comparison_board(const Comparison& comparison);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/comparison/comparison.hpp"
+#include "harness/comparison/comparison_keys.hpp"
 #include "harness/files/text_table.hpp"
 #include "harness/terminal/version.hpp"
 
@@ -16,42 +17,6 @@ namespace harness {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json estimate(const std::optional<Estimate>& value) {
-  const bool is_bounded = value && value->interval;
-  return {{"value", value ? Json(value->value) : Json(nullptr)},
-          {"low", is_bounded ? Json(value->interval->low) : Json(nullptr)},
-          {"high", is_bounded ? Json(value->interval->high) : Json(nullptr)}};
-}
-
-Json estimator_json(const EstimatorComparison& estimator) {
-  Json json;
-  json["runs"] = estimator.runs;
-  json["failed"] = estimator.failed;
-  json["landmark_mse_m2"] = estimate(estimator.landmark_mse);
-  json["landmark_mse_median_m2"] = number(estimator.landmark_mse_median);
-  json["landmark_mse_ratio"] = estimate(estimator.landmark_mse_ratio);
-  json["landmark_mse_ratio_of_means"] = estimate(estimator.landmark_mse_ratio_of_means);
-  json["landmark_rmse_aligned_m"] = estimate(estimator.landmark_aligned);
-  json["landmark_rmse_aligned_ratio"] = estimate(estimator.aligned_ratio);
-  json["landmark_rmse_aligned_ratio_median"] = number(estimator.aligned_ratio_median);
-  json["nees_pose_final"] = estimate(estimator.nees_pose);
-  json["nees_landmark_final"] = estimate(estimator.nees_landmark);
-  json["nees_landmark_from_robot_final"] = estimate(estimator.nees_from_robot);
-  json["nis_scan"] = estimate(estimator.nis_scan);
-  json["nis_scan_inside"] = number(estimator.nis_scan_inside);
-  json["landmarks_missed"] = number(estimator.landmarks_missed);
-  json["landmarks_spurious"] = number(estimator.landmarks_spurious);
-  json["landmarks_duplicate"] = number(estimator.landmarks_duplicate);
-  json["links"] = estimate(estimator.links);
-  json["links_max"] = number(estimator.links_max);
-  json["relocations_per_update"] = number(estimator.relocations_per_update);
-  json["update_p50_us"] = number(estimator.update_p50_us);
-  json["update_p99_us"] = number(estimator.update_p99_us);
-  return json;
-}
 
 Json run_json(const ComparedRun& run) {
   const std::string& error = run.result.error;
@@ -161,13 +126,13 @@ std::string to_json(const Comparison& comparison) {
   for (const ComparedRun& run : comparison.runs) json["seeds"].push_back(run.result.summary.seed);
   json["estimators"] = Json::object();
   for (const EstimatorComparison& estimator : comparison.estimators)
-    json["estimators"][estimator.name] = estimator_json(estimator);
+    json["estimators"][estimator.name] = Json::parse(comparison_keys_json(estimator));
   json["runs"] = Json::array();
   for (const ComparedRun& run : comparison.runs) json["runs"].push_back(run_json(run));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string comparison_board(const Comparison& comparison) {
+std::vector<std::vector<TextRow>> comparison_tables(const Comparison& comparison) {
   const std::string over = "over " + comparison.baseline;
   std::vector<TextRow> accuracy = {
       {"map error", "runs", "failed", "MSE [m^2]", "95 %", over, "95 %", "aligned [m]", over, "median"}};
@@ -180,6 +145,14 @@ std::string comparison_board(const Comparison& comparison) {
     consistency.push_back(consistency_row(estimator));
     cost.push_back(cost_row(estimator));
   }
+  return {accuracy, consistency, cost};
+}
+
+std::string comparison_board(const Comparison& comparison) {
+  const std::vector<std::vector<TextRow>> tables = comparison_tables(comparison);
+  const std::vector<TextRow>& accuracy = tables[0];
+  const std::vector<TextRow>& consistency = tables[1];
+  const std::vector<TextRow>& cost = tables[2];
   std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
                                  comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
                                  text_table(consistency), text_table(cost), footnote(comparison.baseline));

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iterator>
@@ -44,10 +45,29 @@ constexpr const char* name_of(Mark mark) {
   return "";
 }
 
+std::string landmarks_json(const LandmarkTips& tips) {
+  return fmt::format(R"({{"id":[{}],"true_x":{},"true_y":{},"sd_x":{},"sd_y":{}}})", fmt::join(tips.id, ","),
+                     numbers(tips.true_x, false), numbers(tips.true_y, false), numbers(tips.sd_x, false),
+                     numbers(tips.sd_y, false));
+}
+
+std::string areas_json(const Figure& figure) {
+  std::string json;
+  for (const FigureArea& area : figure.areas)
+    json += fmt::format(R"({}{{"solid":{},"x":{},"y":{}}})", json.empty() ? "" : ",", area.is_solid,
+                        numbers(area.x, false), numbers(area.y, false));
+  return fmt::format(R"("areas":[{}],"discs":{{"x":{},"y":{},"radius":{}}})", json,
+                     numbers(figure.discs.x, false), numbers(figure.discs.y, false),
+                     numbers(figure.discs.radius, false));
+}
+
 std::string curve_json(const Figure& figure, const FigureCurve& curve) {
-  return fmt::format(R"({{"name":{},"colour":"#{:06x}","mark":"{}","hidden":{},"x":{},"y":{}}})",
-                     text(curve.name), curve.colour, name_of(curve.mark), curve.is_hidden,
-                     numbers(curve.x, figure.x.is_logarithmic), numbers(curve.y, figure.y.is_logarithmic));
+  const std::string landmarks =
+      curve.landmarks ? ",\"landmarks\":" + landmarks_json(*curve.landmarks) : std::string();
+  return fmt::format(
+      R"({{"name":{},"colour":"#{:06x}","mark":"{}","hidden":{},"silent":{}{},"x":{},"y":{}}})",
+      text(curve.name), curve.colour, name_of(curve.mark), curve.is_hidden, curve.is_silent, landmarks,
+      numbers(curve.x, figure.x.is_logarithmic), numbers(curve.y, figure.y.is_logarithmic));
 }
 
 Json axis_json(const FigureAxis& axis) { return {{"label", axis.label}, {"log", axis.is_logarithmic}}; }
@@ -65,7 +85,7 @@ std::string to_json(const Figure& figure) {
     curves += fmt::format("{}{}", curves.empty() ? "" : ",", curve_json(figure, curve));
   std::string whole = text(json);
   whole.pop_back();  // the closing brace
-  return fmt::format("{},\"curves\":[{}]}}", whole, curves);
+  return fmt::format("{},{},\"curves\":[{}]}}", whole, areas_json(figure), curves);
 }
 
 std::string to_json(const MatrixFigure& figure) {

@@ -41,6 +41,38 @@ std::string data_of(const Figure& figure) {
   return text;
 }
 
+/// Walls and the like: a block of polygons for each kind, and one of discs.
+std::string data_of_areas(const Figure& figure) {
+  std::string text;
+  for (const bool is_solid : {false, true}) {
+    text += is_solid ? "$solids << EOD\n" : "$patches << EOD\n";
+    for (const FigureArea& area : figure.areas) {
+      if (area.is_solid != is_solid) continue;
+      for (std::size_t i = 0; i < area.x.size(); ++i)
+        fmt::format_to(std::back_inserter(text), "{} {}\n", area.x[i], area.y[i]);
+      text += '\n';
+    }
+    text += "EOD\n";
+  }
+  text += "$discs << EOD\n";
+  for (std::size_t i = 0; i < figure.discs.x.size(); ++i)
+    fmt::format_to(std::back_inserter(text), "{} {} {}\n", figure.discs.x[i], figure.discs.y[i],
+                   figure.discs.radius[i]);
+  return text + "EOD\n";
+}
+
+/// What lies below the curves, each part with a comma behind it.
+std::string plot_of_areas(const Figure& figure) {
+  const auto has = [&](bool is_solid) {
+    return std::ranges::find(figure.areas, is_solid, &FigureArea::is_solid) != figure.areas.end();
+  };
+  std::string text;
+  if (has(false)) text += "$patches with filledcurves closed fs solid noborder lc rgb '#eadfc8' notitle, ";
+  if (has(true)) text += "$solids with filledcurves closed fs solid noborder lc rgb '#aab2b9' notitle, ";
+  if (!figure.discs.x.empty()) text += "$discs with circles fs solid noborder lc rgb '#aab2b9' notitle, ";
+  return text;
+}
+
 constexpr const char* style_of(Mark mark) {
   switch (mark) {
     case Mark::line:
@@ -85,7 +117,7 @@ std::string settings_of(const Figure& figure) {
 }
 
 std::string plot_of(const Figure& figure) {
-  std::string text = settings_of(figure) + "plot ";
+  std::string text = settings_of(figure) + "plot " + plot_of_areas(figure);
   std::set<std::string> named;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const FigureCurve& curve = figure.curves[i];
@@ -104,7 +136,7 @@ std::string draw(const Figure& figure, const std::filesystem::path& folder) {
   return draw_picture({.name = figure.id,
                        .width = 1000,
                        .height = figure.is_map ? 800 : 640,
-                       .settings = data_of(shown),
+                       .settings = data_of(shown) + data_of_areas(shown),
                        .plot = plot_of(shown)},
                       folder);
 }

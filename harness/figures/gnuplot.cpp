@@ -35,6 +35,11 @@ std::string script(const Picture& picture, const std::filesystem::path& folder) 
 
 }  // namespace
 
+void check_picture(const std::filesystem::path& folder, const std::string& name, Existing existing) {
+  for (const Terminal& terminal : terminals)
+    check_output(folder / fmt::format("{}.{}", name, terminal.extension), existing);
+}
+
 std::string gnuplot_text(const std::string& text) {
   std::string result = "'";
   for (const char sign : text) result += sign == '\'' ? "''" : std::string(1, sign);

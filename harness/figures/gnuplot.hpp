@@ -5,6 +5,7 @@
 #include <string>
 
 #include "harness/figures/palette.hpp"
+#include "harness/files/output_file.hpp"
 
 namespace harness {
 
@@ -18,6 +19,9 @@ struct Picture {
 
 /// Draws NAME.png and NAME.svg in this folder. Returns an error message, or nothing.
 std::string draw_picture(const Picture& picture, const std::filesystem::path& folder);
+
+/// Throws BadInput if NAME.png and NAME.svg may not be written there.
+void check_picture(const std::filesystem::path& folder, const std::string& name, Existing existing);
 
 /// The text in gnuplot's single quotes. Only the quote itself is special there.
 std::string gnuplot_text(const std::string& text);

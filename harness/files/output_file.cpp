@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
+#include "harness/files/bad_input.hpp"
 #include "harness/files/input_file.hpp"
 
 namespace harness {
@@ -95,16 +97,46 @@ void OutputFile::fail(int error) const {
   throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", path_.string()));
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view text) {
+void check_output(const std::filesystem::path& path, Existing existing) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0)
+    return;  // the attempt to write tells what is wrong, if anything is
+  const std::string name = path.string();
+  if (S_ISDIR(status.st_mode)) throw BadInput(fmt::format("{}: is a folder; give the name of a file", name));
+  if (S_ISLNK(status.st_mode))
+    throw BadInput(fmt::format("{}: is a link, which no output replaces; give the name of a file", name));
+  if (!S_ISREG(status.st_mode))
+    throw BadInput(fmt::format("{}: is no regular file, and no output replaces it", name));
+  if (existing == Existing::keep)
+    throw BadInput(fmt::format("{}: is there already; --force replaces it", name));
+}
+
+void rename_output(const std::filesystem::path& unfinished, const std::filesystem::path& path,
+                   Existing existing) {
+  check_output(path, existing);
+  if (existing == Existing::keep) {
+    // Refuses a file that another program has made meanwhile, where the file system can.
+    if (::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0) return;
+    const int error = errno;
+    check_output(path, existing);
+    if (error != EINVAL && error != ENOSYS)
+      throw std::system_error(error, std::generic_category(), fmt::format("cannot write {}", path.string()));
+  }
+  std::filesystem::rename(unfinished, path);
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view text, Existing existing) {
+  check_output(path, existing);
   std::filesystem::path unfinished = path;
   unfinished += ".part";
+  check_output(unfinished, Existing::replace);
   std::filesystem::remove(unfinished);
   try {
     OutputFile file(unfinished);
     file.append(text);
     file.sync();
     file.close();
-    std::filesystem::rename(unfinished, path);
+    rename_output(unfinished, path, existing);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);

@@ -39,8 +39,22 @@ class OutputFile {
   std::int64_t size_ = 0;  // [byte] flushed so far
 };
 
-/// Writes the whole text. Nobody ever finds a part of the file under its name, even after a power failure.
-void write_whole_file(const std::filesystem::path& path, std::string_view text);
+/// What may happen to a regular file that has the name of an output.
+enum class Existing { keep, replace };
+
+/// Throws BadInput if an output may not have this name: it is that of a device, a pipe, a folder or a link, which
+/// nothing ever replaces, or that of a regular file that is to be kept. An output that takes long is refused so
+/// before it begins.
+void check_output(const std::filesystem::path& path, Existing existing);
+
+/// Gives a finished file its name, under the rule of check_output. Throws std::system_error too.
+void rename_output(const std::filesystem::path& unfinished, const std::filesystem::path& path,
+                   Existing existing);
+
+/// Writes the whole text, under the rule of check_output. Nobody ever finds a part of the file under its name,
+/// even after a power failure. Throws std::system_error too.
+void write_whole_file(const std::filesystem::path& path, std::string_view text,
+                      Existing existing = Existing::replace);
 
 /// Reads an existing file, as open_input does. Throws BadInput or std::system_error.
 std::string read_whole_file(const std::filesystem::path& path);

@@ -51,4 +51,10 @@ std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, co
   return is_still ? make_still(file) : make_picture_sequence(file);
 }
 
+void check_frame_sink(const std::filesystem::path& file, bool is_still, Existing existing) {
+  const bool is_numbered = !is_still && lower_case(file.extension().string()) == ".png";
+  const std::string first = fmt::format("{}_00000{}", file.stem().string(), file.extension().string());
+  check_output(is_numbered ? file.parent_path() / first : file, existing);
+}
+
 }  // namespace harness

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "harness/files/output_file.hpp"
 #include "sim/render/image.hpp"
 
 namespace harness {
@@ -29,5 +30,8 @@ class FrameSink {
 /// std::runtime_error if the encoder is not installed, with a message that says what to install.
 std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, const FrameFormat& format,
                                            bool is_still);
+
+/// Throws BadInput if such a sink may not write there; of numbered pictures, if the first may not be written.
+void check_frame_sink(const std::filesystem::path& file, bool is_still, Existing existing);
 
 }  // namespace harness

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "harness/files/output_file.hpp"
 #include "sim/render/png.hpp"
 
 namespace harness {
@@ -19,7 +20,7 @@ void write_whole(const std::filesystem::path& file, const render::Image& image) 
   unfinished += fmt::format(".{}.part", getpid());
   try {
     render::write_png(unfinished, image);
-    std::filesystem::rename(unfinished, file);
+    rename_output(unfinished, file, Existing::replace);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(unfinished, ignored);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "harness/figures/piped_program.hpp"
+#include "harness/files/output_file.hpp"
 
 namespace harness {
 
@@ -96,7 +97,7 @@ class VideoSink : public FrameSink {
 
   void finish() override {
     if (!encoder_.finish() || tells_of_an_error(encoder_.complaint())) fail();
-    std::filesystem::rename(unfinished(), file_);
+    rename_output(unfinished(), file_, Existing::replace);
   }
 
  private:

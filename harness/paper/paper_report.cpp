@@ -166,7 +166,7 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-std::string paper_board(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison) {
+std::vector<std::vector<TextRow>> paper_tables(const Comparison& comparison) {
   std::vector<TextRow> errors = {{"final error", "runs", "failed", "[1e-3 m^2]", "95 %", "median", "report",
                                   "over ekf", "95 %", "report", "by run", "95 %", "aligned"}};
   std::vector<TextRow> costs = {
@@ -177,9 +177,15 @@ std::string paper_board(const PaperPlan& plan, const worlds::World& world, const
     costs.push_back(cost_row(estimator));
     nees.push_back(nees_row(estimator));
   }
+  return {errors, costs, nees};
+}
+
+std::string paper_board(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison) {
+  const std::vector<std::vector<TextRow>> tables = paper_tables(comparison);
   const std::string failed = failures_of(comparison);
-  return fmt::format("{}\n{}\n{}\n{}\n{}{}{}", heading(plan, world, comparison), text_table(errors),
-                     text_table(costs), text_table(nees), definitions, failed.empty() ? "" : "\n", failed);
+  return fmt::format("{}\n{}\n{}\n{}\n{}{}{}", heading(plan, world, comparison), text_table(tables[0]),
+                     text_table(tables[1]), text_table(tables[2]), definitions, failed.empty() ? "" : "\n",
+                     failed);
 }
 
 std::string paper_json(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison) {

@@ -2,11 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "harness/comparison/comparison.hpp"
+#include "harness/files/text_table.hpp"
 #include "harness/paper/paper.hpp"
 
 namespace harness {
+
+/// Errors, links and time, and consistency, beside what the report has of them.
+std::vector<std::vector<TextRow>> paper_tables(const Comparison& comparison);
 
 /// The tables, the meaning of their columns, and the failures.
 std::string paper_board(const PaperPlan& plan, const worlds::World& world, const Comparison& comparison);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "harness/files/base64.hpp"
@@ -34,6 +35,26 @@ std::string facts_html(const std::vector<Fact>& facts) {
   return html + "</dl>";
 }
 
+std::string description_html(const Description& description) {
+  const std::string text =
+      description.text.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(description.text));
+  return fmt::format("<section class=\"description\">\n<h2>{}</h2>\n{}{}</section>\n",
+                     escaped(description.title), text, facts_html(description.facts));
+}
+
+std::string notes_html(std::string_view notes) {
+  std::string html;
+  while (!notes.empty()) {
+    const std::size_t end = std::min(notes.find("\n\n"), notes.size());
+    std::string_view paragraph = notes.substr(0, end);
+    notes.remove_prefix(std::min(end + 1, notes.size()));
+    while (paragraph.starts_with('\n')) paragraph.remove_prefix(1);
+    while (paragraph.ends_with('\n')) paragraph.remove_suffix(1);
+    if (!paragraph.empty()) html += fmt::format("<p>{}</p>\n", escaped(paragraph));
+  }
+  return html.empty() ? html : fmt::format("<section class=\"notes\">\n<h2>Notes</h2>\n{}</section>\n", html);
+}
+
 std::string row_html(const TextRow& row, const char* first, const char* other) {
   std::string html = "<tr>";
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -44,13 +65,15 @@ std::string row_html(const TextRow& row, const char* first, const char* other) {
 }
 
 std::string table_html(const Table& table) {
-  std::string html =
-      fmt::format("<section>\n<h2>{}</h2>\n<div class=\"scroll\"><table>\n", escaped(table.title));
+  std::string html = fmt::format(
+      "<section>\n<h2>{0}</h2>\n<div class=\"wide\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"{0}\"><table>\n",
+      escaped(table.title));
   html += "<thead>\n" + row_html(table.rows.front(), "th scope=\"col\"", "th scope=\"col\"") +
           "</thead>\n<tbody>\n";
   for (std::size_t i = 1; i < table.rows.size(); ++i)
     html += row_html(table.rows[i], "th scope=\"row\"", "td");
-  html += "</tbody>\n</table></div>\n";
+  html += "</tbody>\n</table></div></div>\n";
   if (!table.note.empty()) html += fmt::format("<p>{}</p>\n", escaped(table.note));
   return html + "</section>\n";
 }
@@ -106,6 +129,16 @@ std::string film_html(const std::optional<std::filesystem::path>& film, const st
                             : "<video controls playsinline preload=\"metadata\" src=\"{}\"></video>";
   return "<section>\n<h2>Film</h2>\n" + fmt::format(fmt::runtime(form), source) + '\n' + link +
          "</section>\n";
+}
+
+std::string image_html(const PageImage& image) {
+  const std::string bytes = read_whole_file(image.file);
+  return fmt::format(
+      "<section>\n<h2>{0}</h2>\n<figure>\n<img class=\"film\" alt=\"{0}\" "
+      "src=\"data:image/{1};base64,{2}\">\n"
+      "<figcaption><p>{3}</p></figcaption>\n</figure>\n</section>\n",
+      escaped(image.title), image.file.extension() == ".svg" ? "svg+xml" : "png",
+      base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}), escaped(image.caption));
 }
 
 std::string listing_html(const Listing& listing) {
@@ -166,9 +199,12 @@ std::string to_html(const Page& page, const std::filesystem::path& file, std::st
   return filled(page_html(), {{"title", escaped(page.title)},
                               {"style", std::string(page_css())},
                               {"facts", facts_html(page.facts)},
+                              {"notes", notes_html(page.notes)},
                               {"tables", joined(page.tables, table_html)},
+                              {"descriptions", joined(page.descriptions, description_html)},
                               {"details", joined(page.details, table_html)},
                               {"figures", joined(page.figures, figure_html)},
+                              {"images", joined(page.images, image_html)},
                               {"matrices", matrices_html(page)},
                               {"film", film_html(page.film, file)},
                               {"listings", joined(page.listings, listing_html)},

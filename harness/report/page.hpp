@@ -30,12 +30,29 @@ struct Listing {
   std::string text = {};
 };
 
+/// A picture that the page includes, from a file of the folder.
+struct PageImage {
+  std::string title = {};
+  std::string caption = {};
+  std::filesystem::path file;  // SVG or PNG
+};
+
+/// Something in words: a text, and facts below it.
+struct Description {
+  std::string title = {};
+  std::string text = {};
+  std::vector<Fact> facts = {};
+};
+
 struct Page {
   std::string title = {};
   std::vector<Fact> facts = {};
-  std::vector<Table> tables = {};   // above the figures
-  std::vector<Table> details = {};  // below the figures
+  std::string notes = {};                      // paragraphs, with an empty line between them
+  std::vector<Table> tables = {};              // above the figures
+  std::vector<Description> descriptions = {};  // above the figures
+  std::vector<Table> details = {};             // below the figures
   std::vector<Figure> figures = {};
+  std::vector<PageImage> images = {};
   std::vector<MatrixFigure> matrices = {};
   std::string matrices_note = {};
   std::optional<std::filesystem::path> film;  // MP4, WebM or GIF

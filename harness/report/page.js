@@ -62,6 +62,55 @@ const bands = (figure) => ({
   },
 });
 
+/// What lies on the ground of a map: patches, then what is solid, the landmarks in their true size.
+const ground = (figure) => ({
+  id: "ground",
+  beforeDatasetsDraw(chart) {
+    const { ctx, chartArea: area, scales: { x, y } } = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(area.left, area.top, area.width, area.height);
+    ctx.clip();
+    for (const shape of figure.areas) {
+      ctx.fillStyle = css(shape.solid ? "--solid" : "--patch");
+      ctx.beginPath();
+      shape.x.forEach((px, i) => ctx.lineTo(x.getPixelForValue(px), y.getPixelForValue(shape.y[i])));
+      ctx.fill();
+    }
+    ctx.fillStyle = css("--solid");
+    figure.discs.radius.forEach((radius, i) => {
+      const px = x.getPixelForValue(figure.discs.x[i]);
+      const reach = Math.abs(x.getPixelForValue(figure.discs.x[i] + radius) - px);
+      ctx.beginPath();
+      ctx.arc(px, y.getPixelForValue(figure.discs.y[i]), reach, 0, 2 * Math.PI);
+      ctx.fill();
+    });
+    ctx.restore();
+  },
+});
+
+/// The nearest point of a curve that has something to say. A landmark counts as nearer than it is, because it
+/// says more than a point of a trajectory.
+Chart.Interaction.modes.telling = (chart, event) => {
+  const at = Chart.helpers.getRelativePosition(event, chart);
+  const { left, right, top, bottom } = chart.chartArea;
+  if (at.x < left || at.x > right || at.y < top || at.y > bottom) return [];
+  let nearest = [];
+  let least = Infinity;
+  for (const { data, index: datasetIndex } of chart.getSortedVisibleDatasetMetas()) {
+    const curve = chart.figure.curves[datasetIndex];
+    if (curve.silent) continue;
+    data.forEach((element, index) => {
+      if (element.skip) return;
+      const apart = Math.hypot(element.x - at.x, element.y - at.y) - (curve.landmarks ? 8 : 0);
+      if (apart >= least) return;
+      least = apart;
+      nearest = [{ element, datasetIndex, index }];
+    });
+  }
+  return nearest;
+};
+
 /// Powers of ten with few landmarks between them, as in 1, 2, 5.
 function tick(figure, axis) {
   return function (value) {
@@ -121,12 +170,30 @@ function legend() {
   };
 }
 
+const number = (value) => String(Number(value.toPrecision(5)));
+
+/// Name, estimate, truth, error and sigma, as far as they are known.
+function aboutLandmark(curve, index) {
+  const { id, true_x: trueX, true_y: trueY, sd_x: sdX, sd_y: sdY } = curve.landmarks;
+  const [x, y] = [curve.x[index], curve.y[index]];
+  const name = id[index] < 0 ? "not in the world" : `landmark ${id[index]}`;
+  if (curve.mark === "circles") return [`${curve.name}: ${name}`, `at ${number(x)}, ${number(y)} m`];
+  const lines = [`${curve.name}: ${name}`, `estimate ${number(x)}, ${number(y)} m`];
+  if (trueX[index] !== null) {
+    lines.push(`truth ${number(trueX[index])}, ${number(trueY[index])} m`);
+    lines.push(`error ${Math.hypot(x - trueX[index], y - trueY[index]).toPrecision(3)} m`);
+  }
+  if (sdX[index] !== null) lines.push(`sigma ${sdX[index].toPrecision(3)}, ${sdY[index].toPrecision(3)} m along x, y`);
+  return lines;
+}
+
 function tooltip(figure) {
-  const number = (value) => String(Number(value.toPrecision(5)));
   return {
     callbacks: {
       title: () => "",
       label: (item) => {
+        const curve = figure.curves[item.datasetIndex];
+        if (curve.landmarks) return aboutLandmark(curve, item.dataIndex);
         const x = figure.categories[item.parsed.x] ?? number(item.parsed.x);
         return `${item.dataset.label}: ${x}, ${number(item.parsed.y)}`;
       },
@@ -187,7 +254,8 @@ function extent(figure) {
   const range = (axis) => {
     let low = Infinity;
     let high = -Infinity;
-    for (const curve of figure.curves) {
+    const solids = figure.areas.filter((shape) => shape.solid);
+    for (const curve of [...figure.curves, ...solids, figure.discs]) {
       for (const value of curve[axis]) {
         if (value === null) continue;
         low = Math.min(low, value);
@@ -290,11 +358,11 @@ function draw(figure) {
   const chart = new Chart(canvas, {
     type: "scatter",
     data: { datasets: [] },
-    plugins: [bands(figure)],
+    plugins: [bands(figure), ground(figure)],
     options: {
       animation: false,
       maintainAspectRatio: false,
-      interaction: { mode: "nearest", intersect: false },
+      interaction: { mode: "telling", intersect: false },
       plugins: { legend: legend(), tooltip: tooltip(figure) },
       scales: { x: scale(figure, "x"), y: scale(figure, "y") },
     },
@@ -329,10 +397,23 @@ function drawMatrix(matrix) {
   context.putImageData(image, 0, 0);
 }
 
+/// Shows at the edges of a wide table that it goes on there.
+function hintAtMore(box) {
+  const scroll = box.firstElementChild;
+  const mark = () => {
+    box.classList.toggle("more", scroll.scrollLeft + scroll.clientWidth < scroll.scrollWidth - 1);
+    box.classList.toggle("moved", scroll.scrollLeft > 0);
+  };
+  scroll.addEventListener("scroll", mark, { passive: true });
+  new ResizeObserver(mark).observe(scroll);
+  mark();
+}
+
 const data = JSON.parse(document.getElementById("data").textContent);
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 const charts = data.figures.map(draw);
 data.matrices.forEach(drawMatrix);
+document.querySelectorAll(".wide").forEach(hintAtMore);
 dark.addEventListener("change", () => {
   for (const chart of charts) {
     colourise(chart);

@@ -20,6 +20,12 @@ Page sweep_page(const std::filesystem::path& folder);
 /// The page of a stress test.
 Page stress_page(const std::filesystem::path& folder);
 
+/// The page of a comparison, from the folder of compare's --out.
+Page comparison_page(const std::filesystem::path& folder);
+
+/// The page of what seifbed paper has written.
+Page paper_page(const std::filesystem::path& folder, const seif::Registry& registry);
+
 /// The page for the kind of folder that this is.
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays);
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "harness/figures/downsampling.hpp"
@@ -15,6 +17,7 @@
 #include "harness/statistics/degrees.hpp"
 #include "harness/statistics/ellipse.hpp"
 #include "harness/stream/log_stream.hpp"
+#include "worlds/geometry.hpp"
 
 namespace harness {
 
@@ -57,51 +60,117 @@ void add_ellipse(const Eigen::Vector2d& mean, const Eigen::Matrix2d& covariance,
 }
 
 using Ids = std::set<seif::LandmarkId>;
+using TruePlaces = std::map<seif::LandmarkId, Eigen::Vector2d>;  // p_world [m]
 
-void add_map(const std::filesystem::path& folder, const Drawn& estimator, const Ids& left_out,
+struct TruthOfMap {
+  TruePlaces places;  // of all landmarks
+  Ids left_out;       // landmarks that are not drawn, for nobody
+};
+
+/// Adds what a reader is told of a landmark.
+void add_tip(seif::LandmarkId landmark, const TruePlaces& places,
+             const std::optional<Eigen::Matrix2d>& covariance, LandmarkTips& tips) {
+  const auto truth = places.find(landmark);
+  const bool is_known = truth != places.end();
+  tips.id.push_back(landmark);
+  tips.true_x.push_back(is_known ? truth->second.x() : gap);
+  tips.true_y.push_back(is_known ? truth->second.y() : gap);
+  tips.sd_x.push_back(covariance ? std::sqrt((*covariance)(0, 0)) : gap);
+  tips.sd_y.push_back(covariance ? std::sqrt((*covariance)(1, 1)) : gap);
+}
+
+void add_map(const std::filesystem::path& folder, const Drawn& estimator, const TruthOfMap& truth,
              Figure& figure) {
   std::vector<MapRecord> map = read_scored_map(folder, estimator.name).landmarks;
-  std::erase_if(map, [&](const MapRecord& landmark) { return left_out.contains(landmark.landmark); });
-  Points points;
-  for (const std::size_t i : spread_sample(map.size(), most_landmarks))
-    add(map[i].mean.x(), map[i].mean.y(), points);
+  std::erase_if(map, [&](const MapRecord& landmark) { return truth.left_out.contains(landmark.landmark); });
+  FigureCurve landmarks{estimator.name, estimator.colour, Mark::crosses};
+  landmarks.landmarks.emplace();
+  for (const std::size_t i : spread_sample(map.size(), most_landmarks)) {
+    if (!map[i].mean.allFinite()) continue;
+    landmarks.x.push_back(map[i].mean.x());
+    landmarks.y.push_back(map[i].mean.y());
+    add_tip(map[i].landmark, truth.places, map[i].covariance, *landmarks.landmarks);
+  }
   FigureCurve ellipses{estimator.name, estimator.colour, Mark::thin_line};
+  ellipses.is_silent = true;
   for (const std::size_t i : spread_sample(map.size(), most_ellipses)) {
     if (map[i].covariance) add_ellipse(map[i].mean, *map[i].covariance, ellipses);
   }
-  figure.curves.push_back(curve_of(estimator, Mark::crosses, std::move(points)));
+  figure.curves.push_back(std::move(landmarks));
   if (!ellipses.x.empty()) figure.curves.push_back(std::move(ellipses));
 }
 
-/// Returns the landmarks that are left out, so that they are left out for the estimators too.
-Ids add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
-  Ids left_out;
-  if (!std::filesystem::exists(file)) return left_out;
+TruthOfMap add_true_landmarks(const std::filesystem::path& file, const Drawn& truth, Figure& figure) {
+  TruthOfMap known;
+  if (!std::filesystem::exists(file)) return known;
   const std::vector<TrueLandmark> landmarks = read_landmarks(file);
-  for (const TrueLandmark& landmark : landmarks) left_out.insert(landmark.landmark);
-  Points points;
-  for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks)) {
-    add(landmarks[i].position.x(), landmarks[i].position.y(), points);
-    left_out.erase(landmarks[i].landmark);
+  for (const TrueLandmark& landmark : landmarks) {
+    known.left_out.insert(landmark.landmark);
+    known.places.emplace(landmark.landmark, landmark.position);
   }
-  figure.curves.push_back(curve_of(truth, Mark::circles, std::move(points)));
-  return left_out;
+  FigureCurve circles{truth.name, truth.colour, Mark::circles};
+  circles.landmarks.emplace();
+  for (const std::size_t i : spread_sample(landmarks.size(), most_landmarks)) {
+    circles.x.push_back(landmarks[i].position.x());
+    circles.y.push_back(landmarks[i].position.y());
+    add_tip(landmarks[i].landmark, known.places, {}, *circles.landmarks);
+    known.left_out.erase(landmarks[i].landmark);
+  }
+  figure.curves.push_back(std::move(circles));
+  return known;
 }
 
-Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
+FigureArea area_of(const worlds::Rectangle& rectangle) {
+  FigureArea area;
+  const Eigen::Vector2d along = rectangle.half.x() * rectangle.axis;
+  const Eigen::Vector2d across =
+      rectangle.half.y() * Eigen::Vector2d(-rectangle.axis.y(), rectangle.axis.x());
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(rectangle.centre - along - across),
+                                        Eigen::Vector2d(rectangle.centre + along - across),
+                                        Eigen::Vector2d(rectangle.centre + along + across),
+                                        Eigen::Vector2d(rectangle.centre - along + across)}) {
+    area.x.push_back(corner.x());
+    area.y.push_back(corner.y());
+  }
+  return area;
+}
+
+/// Walls, boxes, patches, and the landmarks in their true size where they are solid.
+void add_solids(const worlds::World& world, Figure& figure) {
+  for (const worlds::FrictionPatch& patch : world.physics.patches)
+    figure.areas.push_back({false,
+                            {patch.min.x(), patch.max.x(), patch.max.x(), patch.min.x()},
+                            {patch.min.y(), patch.min.y(), patch.max.y(), patch.max.y()}});
+  for (const worlds::Rectangle& solid : worlds::solid_rectangles(world))
+    figure.areas.push_back(area_of(solid));
+  if (figure.areas.size() > world.physics.patches.size()) figure.caption += " Grey: walls and boxes.";
+  if (!world.physics.patches.empty()) figure.caption += " Sand: patches of other friction.";
+  if (world.physics.engine == worlds::Engine::kinematic) return;
+  for (const std::size_t i : spread_sample(world.landmarks.size(), most_landmarks)) {
+    const worlds::Landmark& landmark = world.landmarks[i];
+    figure.discs.x.push_back(landmark.position.x());
+    figure.discs.y.push_back(landmark.position.y());
+    figure.discs.radius.push_back(landmark.radius);
+  }
+  if (!world.landmarks.empty()) figure.caption += " Grey discs are landmarks in their true size.";
+}
+
+Figure map_figure(const std::filesystem::path& folder, const std::vector<Drawn>& estimators,
+                  const worlds::World* world) {
   Figure figure{
       .id = "map", .title = "Trajectories and maps", .x = {"x [m]"}, .y = {"y [m]"}, .is_map = true};
   figure.caption =
       "Circles are the landmarks as they are, crosses where the estimators have them at the end, each with "
       "its "
       "2-sigma ellipse. Of large maps at most 4,000 landmarks and 500 ellipses are drawn, evenly spread.";
+  if (world != nullptr) add_solids(*world, figure);
   const Drawn truth{"truth", palette::truth};
   if (std::filesystem::exists(folder / "truth.tum")) figure.curves.push_back(trajectory(folder, truth));
-  const Ids left_out = add_true_landmarks(folder / "landmarks.csv", truth, figure);
+  const TruthOfMap known = add_true_landmarks(folder / "landmarks.csv", truth, figure);
   figure.curves.push_back(trajectory(folder, {"odometry", palette::odometry}));
   for (const Drawn& estimator : estimators) {
     figure.curves.push_back(trajectory(folder, estimator));
-    add_map(folder, estimator, left_out, figure);
+    add_map(folder, estimator, known, figure);
   }
   return figure;
 }
@@ -214,8 +283,9 @@ std::vector<Drawn> drawn(const std::vector<std::string>& names, const std::vecto
   return drawn;
 }
 
-std::vector<Figure> run_figures(const std::filesystem::path& folder, const std::vector<Drawn>& estimators) {
-  std::vector<Figure> figures = {map_figure(folder, estimators)};
+std::vector<Figure> run_figures(const std::filesystem::path& folder, const std::vector<Drawn>& estimators,
+                                const worlds::World* world) {
+  std::vector<Figure> figures = {map_figure(folder, estimators, world)};
   std::ranges::move(error_figures(folder, estimators), std::back_inserter(figures));
   figures.push_back(pose_nees_figure(folder, estimators));
   figures.push_back(map_nees_figure(folder, estimators));

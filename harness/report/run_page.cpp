@@ -16,10 +16,12 @@
 #include "harness/recording/unfinished.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
+#include "harness/report/world_facts.hpp"
 #include "harness/run/rebuilding.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/score/details.hpp"
 #include "harness/score/scoreboard.hpp"
+#include "harness/stream/log_description.hpp"
 
 namespace harness {
 
@@ -32,14 +34,27 @@ std::vector<std::string> names_of(const Summary& summary) {
 }
 
 /// The types of the estimators, if the run's settings give them; otherwise their names.
-std::vector<std::string> types_of(const std::filesystem::path& folder, const std::vector<std::string>& names,
-                                  const seif::Registry& registry) {
+std::vector<std::string> types_of(const std::vector<std::string>& names,
+                                  const std::vector<worlds::EstimatorChoice>& choices) {
   std::vector<std::string> types = names;
-  const worlds::LoadResult settings = load_replay_settings(folder, {}, registry);
-  if (!settings.world) return types;
-  for (const worlds::EstimatorChoice& choice : settings.world->estimators)
-    std::ranges::replace(types, choice.name, choice.type);
+  for (const worlds::EstimatorChoice& choice : choices) std::ranges::replace(types, choice.name, choice.type);
   return types;
+}
+
+/// Of world and estimators in words, what the folder tells.
+std::vector<Description> descriptions_of(const std::filesystem::path& folder,
+                                         const std::optional<worlds::World>& world,
+                                         const std::vector<worlds::EstimatorChoice>& choices) {
+  std::vector<Description> descriptions;
+  if (world) {
+    descriptions.push_back(describe(*world));
+  } else if (std::filesystem::exists(folder / "log.yaml")) {
+    LogDescription log;
+    read_yaml(folder / "log.yaml", log);
+    descriptions.push_back(describe(log));
+  }
+  if (!choices.empty()) descriptions.push_back(describe(choices));
+  return descriptions;
 }
 
 std::vector<Fact> facts_of(const Summary& summary) {
@@ -52,10 +67,6 @@ std::vector<Fact> facts_of(const Summary& summary) {
                              {"Trajectory hash", summary.trajectory_hash}};
   if (summary.interrupted)
     facts.push_back({"Interrupted", summary.error.empty() ? "before its end" : summary.error});
-  for (std::size_t i = 0; i < summary.failures.size(); ++i) {
-    if (!summary.failures[i].empty())
-      facts.push_back({"Failed", summary.score.estimators[i].name + " " + summary.failures[i]});
-  }
   return facts;
 }
 
@@ -153,7 +164,13 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
   Page page;
   page.title = fmt::format("{}, seed {}", summary.world, summary.seed);
   page.facts = facts_of(summary);
-  page.figures = run_figures(folder, drawn(names, types_of(folder, names, registry)));
+  page.notes = scoreboard_notes(summary) + without_truth(folder);
+  const std::optional<worlds::World> world = world_of(folder, registry);
+  const worlds::LoadResult settings = load_replay_settings(folder, {}, registry);
+  const std::vector<worlds::EstimatorChoice> choices =
+      settings.world ? settings.world->estimators : std::vector<worlds::EstimatorChoice>();
+  page.descriptions = descriptions_of(folder, world, choices);
+  page.figures = run_figures(folder, drawn(names, types_of(names, choices)), world ? &*world : nullptr);
   if (replays) add_replayed(folder, summary, registry, details, page);
   page.tables = tables_of(summary);
   page.details = tables_of(details);
@@ -167,12 +184,14 @@ Page run_page(const std::filesystem::path& folder, const seif::Registry& registr
 Page page_of(const std::filesystem::path& folder, const seif::Registry& registry, bool replays) {
   if (std::filesystem::exists(folder / "sweep.json")) return sweep_page(folder);
   if (std::filesystem::exists(folder / "stress.json")) return stress_page(folder);
+  if (std::filesystem::exists(folder / "paper.json")) return paper_page(folder, registry);
+  if (std::filesystem::exists(folder / "comparison.json")) return comparison_page(folder);
   if (std::filesystem::exists(folder / "summary.json") || is_unfinished(folder))
     return run_page(folder, registry, replays);
-  throw BadInput(
-      fmt::format("{}: is no folder of a run, a sweep or a stress test: there is no summary.json, "
-                  "sweep.json or stress.json",
-                  folder.string()));
+  throw BadInput(fmt::format(
+      "{}: is no folder of a run, a sweep, a stress test, a comparison or of seifbed paper: there "
+      "is no summary.json, sweep.json, stress.json, comparison.json or paper.json",
+      folder.string()));
 }
 
 }  // namespace harness

@@ -8,6 +8,7 @@
 #include "harness/comparison/seeds.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/report/interval_marks.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/report/run_figures.hpp"
 #include "harness/sweep/status.hpp"
@@ -52,18 +53,6 @@ std::vector<Drawn> estimators_of(const Aggregate& aggregate) {
     }
   }
   return drawn(names, names);
-}
-
-/// A vertical line with a short cap at both ends.
-void add_interval(double x, const ConfidenceInterval& interval, FigureCurve& curve) {
-  constexpr double half_cap = 0.02;
-  for (const auto& [px, py] : {std::pair(x - half_cap, interval.low), std::pair(x + half_cap, interval.low),
-                               std::pair(gap, gap), std::pair(x, interval.low), std::pair(x, interval.high),
-                               std::pair(gap, gap), std::pair(x - half_cap, interval.high),
-                               std::pair(x + half_cap, interval.high), std::pair(gap, gap)}) {
-    curve.x.push_back(px);
-    curve.y.push_back(py);
-  }
 }
 
 /// The means of a score over the settings. The estimators are drawn slightly beside each other.

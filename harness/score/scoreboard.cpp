@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -185,14 +186,29 @@ std::string scoreboard(const Summary& summary) {
                                  summary.realtime_factor, summary.interrupted ? " (interrupted)" : "");
   text += text_table(accuracy_table(summary));
   if (cost.size() > 1) text += '\n' + text_table(cost);
-  text += note_lines(summary) + log_line(summary) + left_out_line(summary) + truth_lines(summary) +
-          matching_lines(summary) + gate_line(summary) + association_lines(summary) +
+  return text + scoreboard_notes(summary);
+}
+
+std::string scoreboard_notes(const Summary& summary) {
+  std::string text = note_lines(summary) + log_line(summary) + left_out_line(summary) +
+                     truth_lines(summary) + matching_lines(summary) + gate_line(summary) +
+                     association_lines(summary) +
           divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);
   }
   return text;
+}
+
+std::string without_truth(const std::filesystem::path& run) {
+  const bool poses = std::filesystem::exists(run / "truth.csv");
+  const bool landmarks = std::filesystem::exists(run / "landmarks.csv");
+  if (poses && landmarks) return "";
+  return fmt::format(
+      "\nThe log holds no truth of the {}: what would be compared with it is not scored.\n"
+      "--reference batch compares with the optimum of what was measured, which is no truth.\n",
+      poses ? "landmarks" : (landmarks ? "poses" : "poses, nor of the landmarks"));
 }
 
 }  // namespace harness

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <istream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -113,6 +114,8 @@ void read_left_out(const Json& left_out, Summary& summary) {
   }
 }
 
+}  // namespace
+
 Summary parse_summary(std::istream& text) {
   const Json json = Json::parse(text);
   Summary summary;
@@ -140,8 +143,6 @@ Summary parse_summary(std::istream& text) {
   }
   return summary;
 }
-
-}  // namespace
 
 Summary read_summary(const std::filesystem::path& file) {
   const bool is_there = std::filesystem::exists(file);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,6 +35,9 @@ struct Summary {
 /// Reads a summary.json. Of the scores it reads only the names of the estimators; the scores themselves can
 /// be computed from the folder. Throws BadInput.
 Summary read_summary(const std::filesystem::path& file);
+
+/// The same of a text. Throws the JSON library's exceptions too.
+Summary parse_summary(std::istream& text);
 
 /// A value that is not available or not finite is written as null.
 std::string to_json(const Summary& summary);

@@ -93,17 +93,18 @@ std::string time_table(const StressResult& result) {
 }
 
 std::string whole_table(const StressResult& result) {
-  std::vector<TextRow> table = {{"landmarks", "load [s]", "build [s]", "warm start [s]", "updates", "seen",
-                                 "x real time", "objects/step", "rays/scan", "process [MB]", "[B]/landmark",
-                                 "growth [kB/h]"}};
+  std::vector<TextRow> table = {{"landmarks", "load [s]", "build [s]", "warm start [s]", "its updates",
+                                 "seen", "measured", "x real time", "objects/step", "rays/scan",
+                                 "process [MB]", "[B]/landmark", "growth [kB/h]"}};
   for (const StressRow& row : result.rows) {
-    table.push_back(
-        {fmt::format("{}", row.landmarks), number_cell(row.load_s, 2), number_cell(row.build_s, 2),
-         number_cell(row.warm_s, 1), fmt::format("{}", row.warm_updates),
-         fmt::format("{}", row.landmarks_seen), number_cell(row.realtime_factor, 1),
-         number_cell(each(row.counts.objects_stepped, row.counts.steps), 2),
-         number_cell(each(row.counts.rays, row.updates), 1), number_cell(1e-6 * row.process_bytes, 0),
-         number_cell(row.bytes_by_landmark, 0), number_cell(1e-3 * row.growth_bytes_by_hour, 0)});
+    table.push_back({fmt::format("{}", row.landmarks), number_cell(row.load_s, 2),
+                     number_cell(row.build_s, 2), number_cell(row.warm_s, 1),
+                     fmt::format("{}", row.warm_updates), fmt::format("{}", row.landmarks_seen),
+                     fmt::format("{}", row.updates), number_cell(row.realtime_factor, 1),
+                     number_cell(each(row.counts.objects_stepped, row.counts.steps), 2),
+                     number_cell(each(row.counts.rays, row.updates), 1),
+                     number_cell(1e-6 * row.process_bytes, 0), number_cell(row.bytes_by_landmark, 0),
+                     number_cell(1e-3 * row.growth_bytes_by_hour, 0)});
   }
   return text_table(table);
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/comparison/comparison_keys.hpp"
 #include "harness/comparison/parallel_runs.hpp"
 
 namespace harness {
@@ -153,6 +154,15 @@ DetailedRun named(const std::string& world) {
   DetailedRun run;
   run.result.summary.world = world;
   return run;
+}
+
+TEST(Comparison, IsReadBackAsItWasWritten) {
+  const Comparison comparison = example();
+  const Comparison read = parse_comparison(to_json(comparison));
+  EXPECT_EQ(comparison_board(read), comparison_board(comparison))
+      << "is a key missing in comparison_keys.cpp?";
+  EXPECT_EQ(read.baseline, "a");
+  EXPECT_EQ(read.runs.at(1).result.summary.failures, comparison.runs.at(1).result.summary.failures);
 }
 
 TEST(ExecuteAll, KeepsTheOrderWhateverTheThreadsAndCatchesWhatIsThrown) {

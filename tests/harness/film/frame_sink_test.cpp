@@ -199,14 +199,14 @@ TEST_P(EveryVideo, MayHaveANameThatLooksLikeSomethingElse) {
   std::filesystem::current_path(before);
 }
 
-TEST_P(EveryVideo, SaysWhatTheEncoderSaidIfItCannotBeWritten) {
+TEST_P(EveryVideo, SaysWhyItCannotBeWritten) {
   std::filesystem::create_directories(file("film"));
   const auto sink = make_frame_sink(file("film"), format, false);
   const std::string message = message_of<std::runtime_error>([&] {
     write_frames(*sink, 1000);
     sink->finish();
   });
-  EXPECT_NE(message.find("Is a directory"), std::string::npos) << message;
+  EXPECT_NE(message.find("is a folder"), std::string::npos) << message;
   EXPECT_NE(message.find(file("film").string()), std::string::npos) << message;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/comparison/comparison_keys.hpp"
+
 namespace harness {
 namespace {
 
@@ -137,6 +139,15 @@ TEST(PaperReport, HasATableWithoutRuns) {
   none.interrupted = true;
   EXPECT_NE(paper_board({}, world(), none).find("0 runs from seed 1 (interrupted)"), std::string::npos);
   EXPECT_TRUE(nlohmann::json::parse(paper_json({}, world(), none))["estimators"].empty());
+}
+
+TEST(PaperTables, AreTheSameFromTheFilesOfTheFolder) {
+  const Comparison comparison = example();
+  Comparison read = parse_comparison(paper_json({}, world(), comparison));
+  const nlohmann::ordered_json times = nlohmann::ordered_json::parse(paper_times_json({}, comparison));
+  for (EstimatorComparison& estimator : read.estimators)
+    read_comparison_keys(times.at("estimators").at(estimator.name).dump(), estimator);
+  EXPECT_EQ(paper_tables(read), paper_tables(comparison)) << "is a key missing in comparison_keys.cpp?";
 }
 
 }  // namespace

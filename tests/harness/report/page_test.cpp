@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,8 @@
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/report/run_figures.hpp"
+#include "harness/report/world_facts.hpp"
+#include "worlds/degree.hpp"
 
 namespace harness {
 namespace {
@@ -43,8 +46,10 @@ TEST(Page, TextsOfUsersStayTexts) {
   Page page;
   page.title = evil;
   page.facts = {{evil, evil}};
+  page.notes = "\n" + evil + "\n";
   page.tables = {{evil, {{evil, evil}, {evil, evil}}, evil}};
   page.details = page.tables;
+  page.descriptions = {{evil, evil, {{evil, evil}}}};
   page.figures = {{.id = "map", .title = evil, .caption = evil, .x = {evil}, .y = {evil}}};
   page.figures[0].categories = {evil};
   page.figures[0].bands = {{evil, 0, 1}};
@@ -56,6 +61,14 @@ TEST(Page, TextsOfUsersStayTexts) {
   EXPECT_FALSE(contains(html, "<script>alert"));
   EXPECT_TRUE(
       contains(html, "<title>&lt;script&gt;alert(&#39;&quot;&amp;&quot;&#39;)&lt;/script&gt;{{data}}"));
+}
+
+TEST(Page, HasAParagraphForEachOfTheNotes) {
+  Page page;
+  EXPECT_FALSE(contains(html_of(page), "<h2>Notes</h2>"));
+  page.notes = "\nfirst:\n  more of it\n\nsecond\n";
+  const std::string html = html_of(page);
+  EXPECT_TRUE(contains(html, "<p>first:\n  more of it</p>\n<p>second</p>\n</section>")) << html;
 }
 
 /// The JSON that the page's script reads.
@@ -96,6 +109,53 @@ TEST(Page, HoldsASmallFilmAndLinksALargeOne) {
   const std::string large = to_html(page, folder / "pages/report.html", "");
   EXPECT_TRUE(contains(large, "src=\"../a%20film%20%26%20more.mp4\""));
   EXPECT_LT(large.size(), 100'000U);
+}
+
+TEST(WorldFacts, SayInWordsWhatTheWorldFileSays) {
+  worlds::World world = test::small_world();
+  world.name = "hall";
+  world.description = "a hall with pillars";
+  world.seed = 7;
+  world.duration = 90;
+  world.ground_size = {30, 20};
+  world.walls = {{.points = {{0, 0}, {3, 0}, {3, 4}}}};
+  world.boxes.resize(2);
+  world.landmark_sensor.max_range = 6;
+  world.landmark_sensor.range_sd = 0.05;
+  world.landmark_sensor.range_sd_per_m = 0.01;
+  world.landmark_sensor.bearing_sd = 2 * worlds::degree;
+  world.landmark_sensor.miss_probability = 0.1;
+  world.faults.resize(1);
+  world.faults[0].kind = worlds::FaultKind::kidnapping;
+  world.faults[0].at = 12;
+  const Description about = describe(world);
+  EXPECT_EQ(about.text, "a hall with pillars");
+  const auto fact = [&](const std::string& name) {
+    const auto found = std::ranges::find(about.facts, name, &Fact::name);
+    return found == about.facts.end() ? std::string() : found->value;
+  };
+  EXPECT_EQ(fact("Name"), "hall");
+  EXPECT_EQ(fact("Size of the ground"), "30 x 20 m");
+  EXPECT_TRUE(fact("Landmarks").starts_with("12, radius ")) << fact("Landmarks");
+  EXPECT_EQ(fact("Walls and boxes"), "1 wall, 7.0 m in all; 2 boxes");
+  EXPECT_EQ(fact("Duration and seed"), "90 s, seed 7");
+  EXPECT_TRUE(fact("Landmark sensor").find("up to 6 m") != std::string::npos) << fact("Landmark sensor");
+  EXPECT_EQ(fact("Noise of the sensor"), "0.05 m and 1 % of the range in range, 2 deg in bearing");
+  EXPECT_EQ(fact("Mistakes of the sensor"), "misses 10 % of what it could see");
+  EXPECT_EQ(fact("Faults on purpose"), "kidnapping at 12 s");
+}
+
+TEST(WorldFacts, NameTheOptionsOfEstimators) {
+  worlds::EstimatorChoice choice;
+  choice.name = "mine";
+  choice.type = "seif";
+  choice.odometry_sd_factor = 2;
+  choice.options = {{"theta_x", std::int64_t{6}}, {"gate", 0.5}, {"mean_recovery", std::string("tree")}};
+  const Description about = describe(std::vector{choice});
+  ASSERT_EQ(about.facts.size(), 1U);
+  EXPECT_EQ(about.facts[0].name, "mine");
+  EXPECT_EQ(about.facts[0].value,
+            "type seif, takes the odometry's noise times 2, gate: 0.5, mean_recovery: tree, theta_x: 6");
 }
 
 TEST(Drawn, HasTheColoursOfItsTypesAndNoneTwice) {

@@ -54,7 +54,8 @@ TEST_F(ReportCommand, WritesAPageOfARun) {
   EXPECT_FALSE(contains(html, "<b>small"));
   for (const char* part :
        {"Chart.js v", "id=\"map\"", "id=\"nees-pose\"", "id=\"update-time\"", "<th scope=\"row\">ekf",
-        "id=\"matrix-ekf\"", "duration_s: 20", "data:video/mp4;base64,bW92aW5n"})
+        "id=\"matrix-ekf\"", "duration_s: 20", "<dd>20 s, seed 1</dd>", "<dt>seif_report</dt><dd>K: 10,",
+        "data:video/mp4;base64,bW92aW5n"})
     EXPECT_TRUE(contains(html, part)) << part;
   for (const char* network : {"src=\"http", "href=\"http", "@import", "url("})
     EXPECT_FALSE(contains(html, network)) << network;
@@ -89,6 +90,30 @@ TEST_F(ReportCommand, GoesWithoutAReplayAndWithoutTruth) {
   EXPECT_FALSE(contains(html, "id=\"position-error\""));
 }
 
+TEST_F(ReportCommand, SaysAllThatTheTerminalSays) {
+  run();
+  // The filter's own belief of the pose is made far too small, and one estimator has failed.
+  std::string rows = read_file(folder / "run" / "ekf_consistency.csv");
+  rows = rows.substr(0, rows.find('\n') + 1) + "10,5000,2,20,20,1000\n20,6000,2,20,20,1000\n";
+  test::write_file(folder / "run" / "ekf_consistency.csv", rows);
+  nlohmann::ordered_json summary = nlohmann::ordered_json::parse(read_file(folder / "run" / "summary.json"));
+  summary["estimators"]["seif_report"]["failure"] = "at 12 s: it was tired";
+  summary["left_out"] = {{"first_s", 3.5}, {"observations", 17}};
+  summary["log"] = {{"bridged", 4}};
+  test::write_file(folder / "run" / "summary.json", summary.dump());
+  std::filesystem::remove(folder / "run" / "landmarks.csv");
+  const std::string board = call(folder, "score run --no-replay").output;
+  report("run --no-replay");
+  const std::string html = read_file(folder / "run" / "report.html");
+  for (const char* line :
+       {"ekf diverged by 10 s: the NEES of its pose is above", "seif_report failed at 12 s: it was tired",
+        "Not given to the estimators, from 3.5 s on:\n  observations 17",
+        "Left out of the log, or bridged: bridged 4", "The log holds no truth of the landmarks"}) {
+    EXPECT_TRUE(contains(board, line)) << line << '\n' << board;
+    EXPECT_TRUE(contains(html, line)) << line;
+  }
+}
+
 TEST_F(ReportCommand, WritesAPageOfASweep) {
   call(folder,
        "sweep world.yaml --seeds 1..3 --vary estimators.seif_report.theta_x=4,6 --set duration_s=15 --out "
@@ -112,8 +137,47 @@ TEST_F(ReportCommand, WritesAPageOfAStressTest) {
   const std::string html = read_file(folder / "stressed" / "report.html");
   for (const char* part : {"id=\"time\"", "100, seif update", "150, seif", "simulated second"})
     EXPECT_TRUE(contains(html, part)) << part;
+  const nlohmann::json stress = nlohmann::json::parse(read_file(folder / "stressed" / "stress.json"));
+  for (const nlohmann::json& row : stress["rows"]) {
+    const std::string counts = "<td>" + row["warm_start"]["updates"].dump() + "</td><td>" +
+                               row["warm_start"]["seen"].dump() + "</td><td>20</td>";
+    EXPECT_TRUE(contains(html, counts)) << "warm start, landmarks seen, measured: " << counts;
+  }
   test::write_file(folder / "stressed" / "stress.json", "{}");
   EXPECT_EQ(call(folder, "report stressed").exit_code, 2);
+}
+
+TEST_F(ReportCommand, WritesAPageOfAComparison) {
+  const Called compared = call(folder, "compare world.yaml --seeds 1..3 --set duration_s=60 --out compared");
+  ASSERT_EQ(compared.exit_code, 0) << compared.errors;
+  EXPECT_EQ(compared.output, read_file(folder / "compared" / "comparison.txt") + "\nWritten to compared\n");
+  nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(read_file(folder / "compared" / "comparison.json"));
+  json["runs"][1]["summary"]["estimators"]["ekf"]["failure"] = "at 5 s: gave up";
+  test::write_file(folder / "compared" / "comparison.json", json.dump());
+  report("compared");
+  const std::string html = read_file(folder / "compared" / "report.html");
+  for (const char* part : {"id=\"mse\"", "id=\"nees-pose\"", "id=\"links\"", "id=\"runs\"",
+                           "<th scope=\"col\">over ekf", "<th scope=\"row\">seif_report</th><td>3</td>",
+                           "-2: ekf failed at 5 s: gave up", "(comparison.txt)", "-3\n</pre>"})
+    EXPECT_TRUE(contains(html, part)) << part;
+  test::write_file(folder / "compared" / "comparison.json", "{}");
+  const Called broken = call(folder, "report compared");
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_TRUE(contains(broken.errors, "compared/comparison.json: is no result of a comparison"))
+      << broken.errors;
+}
+
+TEST_F(ReportCommand, WritesAPageOfThePaper) {
+  ASSERT_EQ(call(folder, "paper --runs 2 --set duration_s=3 --out paper --quiet").exit_code, 0);
+  report("paper");
+  const std::string html = read_file(folder / "paper" / "report.html");
+  for (const char* part :
+       {"Section 4 of the 2002 report, report2002", "<th scope=\"row\">SEIF, constant time (seif_report)",
+        "6.35 +- 0.67", "id=\"nees-map\"", "id=\"runs\"", "src=\"data:image/svg+xml;base64,",
+        "Figure 6: the filters side by side", "(paper.txt)", "<dt>seif_exact</dt>"})
+    EXPECT_TRUE(contains(html, part)) << part;
+  EXPECT_FALSE(contains(html, "src=\"figure"));
 }
 
 TEST_F(ReportCommand, ListsWhatFailed) {
@@ -178,11 +242,26 @@ TEST_F(ReportInBrowser, DrawsAllWithoutANetwork) {
 TEST_F(ReportInBrowser, FitsOnAPhone) {
   const nlohmann::json seen = look(R"(
     result.page = document.documentElement.scrollWidth;
+    const wide = document.querySelector(".wide");
+    const scroll = wide.firstElementChild;
+    const turn = async (left) => {
+      scroll.scrollLeft = left;
+      await until(() => wide.classList.contains("more") === (left === 0));
+      const first = scroll.querySelector("tbody th").getBoundingClientRect();
+      return { more: wide.classList.contains("more"), first: first.left - scroll.getBoundingClientRect().left };
+    };
+    result.wider = scroll.scrollWidth > scroll.clientWidth;
+    result.begin = await turn(0);
+    result.end = await turn(10000);
     result.window = window.innerWidth;
     result.canvas = Math.max(...charts.map((chart) => chart.width));)",
-                                   {.width = 500});  // the browser's narrowest window
+                                   {.width = 360});
   EXPECT_LE(seen["page"], seen["window"]);
   EXPECT_LE(seen["canvas"], seen["window"]);
+  EXPECT_TRUE(seen["wider"]) << "the table scrolls in its box";
+  EXPECT_TRUE(seen["begin"]["more"]) << "and its edge says so";
+  EXPECT_FALSE(seen["end"]["more"]);
+  EXPECT_NEAR(seen["end"]["first"], 0.0, 0.5) << "the first column stays";
 }
 
 TEST_F(ReportInBrowser, AMapHasMetresAsLongAlongBothAxes) {
@@ -250,6 +329,32 @@ TEST_F(ReportInBrowser, HidesAllCurvesOfANameAndTellsOfAPoint) {
   EXPECT_EQ(seen["before"].size(), expected.size() + 3) << "trajectory, landmarks and ellipses";
   EXPECT_EQ(seen["after"], expected);
   EXPECT_TRUE(contains(seen["tip"], ": ")) << seen["tip"];
+}
+
+TEST_F(ReportInBrowser, ALandmarkOfTheMapTellsWhichItIs) {
+  const nlohmann::json seen = look(R"(
+    const chart = charts[0];
+    chart.figure.curves.forEach((curve, i) => chart.setDatasetVisibility(i, curve.name === "ekf"));
+    chart.update("none");
+    const of = (mark) => chart.figure.curves.findIndex((curve) => curve.name === "ekf" && curve.mark === mark);
+    const frame = chart.canvas.getBoundingClientRect();
+    const pointAt = async ({ x, y }) => {
+      chart.canvas.dispatchEvent(new MouseEvent("mousemove", {
+        clientX: frame.left + x, clientY: frame.top + y, bubbles: true }));
+      await until(() => chart.tooltip?.opacity > 0);
+      return chart.tooltip.body[0].lines;
+    };
+    result.ids = chart.figure.curves[of("crosses")].landmarks.id;
+    result.mark = await pointAt(chart.getDatasetMeta(of("crosses")).data[0]);
+    result.ellipse = await pointAt(chart.getDatasetMeta(of("thin")).data[0]);)");
+  const nlohmann::json& mark = seen["mark"];
+  ASSERT_EQ(mark.size(), 5U) << mark;
+  EXPECT_EQ(mark[0], "ekf: landmark " + seen["ids"][0].dump());
+  for (std::size_t i = 1; i < mark.size(); ++i) {
+    const char* begin[] = {"", "estimate ", "truth ", "error ", "sigma "};
+    EXPECT_TRUE(mark[i].get<std::string>().starts_with(begin[i])) << mark;
+  }
+  EXPECT_TRUE(contains(seen["ellipse"][0], "landmark ")) << "not a point of the ellipse: " << seen["ellipse"];
 }
 
 TEST_F(ReportInBrowser, IsDarkWhereThePaperIs) {

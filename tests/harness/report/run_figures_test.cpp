@@ -6,7 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/fixtures.hpp"
@@ -78,6 +81,49 @@ TEST_F(FiguresOfRun, EllipsesAreOfTwoStandardDeviations) {
   }
   EXPECT_NEAR(right, 2 * 0.2, 0.005) << "its reach is twice the standard deviation along x";
   EXPECT_TRUE(std::isnan(ellipse.x.back())) << "the next one begins anew";
+}
+
+TEST_F(FiguresOfRun, AMapShowsAllThatIsSolid) {
+  write(1);
+  worlds::World world = test::small_world();
+  world.physics.engine = worlds::Engine::bullet;
+  world.walls = {{.points = {{0, 0}, {4, 0}, {4, 2}}, .thickness = 0.2}};
+  world.boxes = {{.centre = {.position = {1, 2}, .heading = std::numbers::pi / 2}, .size = {2, 1}}};
+  world.physics.patches = {{.min = {-1, -2}, .max = {3, 4}}};
+  const Figure map = run_figures(folder.path(), {{"ekf", 0x0072B2}}, &world).front();
+  ASSERT_EQ(map.areas.size(), 4U) << "a patch, a box, and two legs of the wall";
+  EXPECT_FALSE(map.areas[0].is_solid);
+  EXPECT_EQ(map.areas[0].x, (std::vector<double>{-1, 3, 3, -1}));
+  const auto reach = [](const std::vector<double>& values) {
+    const auto [low, high] = std::ranges::minmax(values);
+    return std::pair(low, high);
+  };
+  const auto expect_reach = [&](const std::vector<double>& values, double low, double high) {
+    EXPECT_NEAR(reach(values).first, low, 1e-9);
+    EXPECT_NEAR(reach(values).second, high, 1e-9);
+  };
+  expect_reach(map.areas[1].x, 0.5, 1.5);
+  expect_reach(map.areas[1].y, 1, 3);
+  expect_reach(map.areas[2].y, -0.1, 0.1);
+  expect_reach(map.areas[3].x, 3.9, 4.1);
+  EXPECT_EQ(map.discs.x.size(), world.landmarks.size());
+  EXPECT_EQ(map.discs.radius.front(), world.landmarks.front().radius);
+  world.physics.engine = worlds::Engine::kinematic;
+  EXPECT_TRUE(run_figures(folder.path(), {}, &world).front().discs.x.empty()) << "points block nothing";
+}
+
+TEST_F(FiguresOfRun, ALandmarkTellsItsIdTruthAndSigma) {
+  write(2);
+  test::write_file(folder / "landmarks.csv", "landmark,x,y,radius\n1,1,0,0.1\n");
+  const Figure map = figure("map");
+  EXPECT_TRUE(curve(map, "ekf", Mark::thin_line).is_silent);
+  const LandmarkTips tips = curve(map, "ekf", Mark::crosses).landmarks.value();
+  EXPECT_EQ(tips.id, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_TRUE(std::isnan(tips.true_x[0])) << "the world does not have it";
+  EXPECT_EQ(tips.true_x[1], 1);
+  EXPECT_EQ(tips.true_y[1], 0);
+  EXPECT_NEAR(tips.sd_x[1], 0.2, 1e-12);
+  EXPECT_NEAR(tips.sd_y[1], 0.3, 1e-12);
 }
 
 TEST_F(FiguresOfRun, OfALargeMapTheSameLandmarksAreDrawnByAll) {
