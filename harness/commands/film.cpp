@@ -10,6 +10,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/film/film_folder.hpp"
 #include "harness/film/film_options.hpp"
+#include "harness/film/frame_sink.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
 
@@ -31,6 +32,7 @@ std::filesystem::path file_of(const FilmArguments& arguments) {
 
 int film(const FilmArguments& arguments, const seif::Registry& registry) {
   using Clock = std::chrono::steady_clock;
+  check_film_times(arguments.film);
   std::vector<std::string> overrides = arguments.overrides;
   for (const std::string& override : film_overrides(arguments.film)) overrides.push_back(override);
   std::vector<worlds::Problem> problems;
@@ -63,7 +65,7 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   const std::string length = is_still ? std::string()
                                       : fmt::format(": {:.1f} s, {} frames, {:.1f} drawn in a second",
                                                     frames / settings.fps, result.frames, frames / elapsed);
-  return print_all(fmt::format("Written to {}{}\n", file.string(), length), code);
+  return print_all(fmt::format("Written to {}{}\n", files_of(file, is_still, result.frames), length), code);
 }
 
 }  // namespace
@@ -74,9 +76,9 @@ void add_film(CommandLine line) {
   command->footer(
       "Examples:\n"
       "  seifbed film runs/courtyard-1\n"
-      "  seifbed film runs/courtyard-1 --camera chase --from 60 --to 90 --speed 2 -o chase.mp4\n"
-      "  seifbed film runs/courtyard-1 --estimators seif,seif_report --hide rays,odometry -o two.webm\n"
-      "  seifbed film runs/courtyard-1 --at 45 --size 1920x1080 -o frame.png\n"
+      "  seifbed film runs/courtyard-1 --camera chase --from 60 --to 90 --speed 2 --out chase.mp4\n"
+      "  seifbed film runs/courtyard-1 --estimators seif,seif_report --hide rays,odometry --out two.webm\n"
+      "  seifbed film runs/courtyard-1 --at 45 --size 1920x1080 --out frame.png\n"
       "Nothing is simulated again: the filters are fed with the recorded log. The estimators that are not\n"
       "named are seif and ekf if they ran. A run's world.yaml says how it is filmed unless an option does.\n"
       "Ctrl-C ends the film where it is; what there is can be played.");

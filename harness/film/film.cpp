@@ -19,6 +19,7 @@ using Eigen::Vector2d;
 
 constexpr double same_time = 1e-9;      // [s] times this close are the same
 constexpr double longest = 40.0;        // [s] film time, if no speed is given
+constexpr double most_frames = 1e7;     // [-] of a film; drawing them takes days
 constexpr double past_notes = 60.0;     // [-] updates of the charts before the first frame
 constexpr double farthest_view = 12.0;  // [-] in units of the radius of interest around the robot
 
@@ -91,10 +92,17 @@ FilmClock film_clock(const worlds::Film& film, double start, double end, std::op
   clock.start = start + from.value_or(0.0);
   clock.end = std::min(end, start + to.value_or(end - start));
   clock.fps = film.fps;
-  if (clock.start < start || clock.start > end + same_time || clock.end < clock.start - same_time)
+  // Written so that a time that is no number fails too.
+  if (!(clock.start >= start && clock.start <= end + same_time && clock.end >= clock.start - same_time))
     throw BadInput(fmt::format("there is nothing to film from {:g} s to {:g} s: the run takes {:g} s",
                                from.value_or(0.0), to.value_or(end - start), end - start));
   clock.speed = film.speed > 0.0 ? film.speed : speed_for(clock.end - clock.start, longest);
+  const double frames = (clock.end - clock.start) * clock.fps / clock.speed;
+  if (frames > most_frames)
+    throw BadInput(
+        fmt::format("a film of {:g} s at the speed {:g} has {:.3g} frames, and at most {:g} can be "
+                    "drawn: choose a higher speed",
+                    clock.end - clock.start, clock.speed, frames, most_frames));
   return clock;
 }
 

@@ -40,7 +40,7 @@ struct FilmPlan {
 std::vector<std::string> filmed_estimators(const worlds::World& world);
 
 /// The clock of a film from `from` to `to`, both [s] of simulated time after the run's start. Throws BadInput
-/// if there is nothing to film between them.
+/// if there is nothing to film between them, or more than ten million frames.
 FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
                      std::optional<double> to);
 

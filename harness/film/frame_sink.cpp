@@ -51,4 +51,10 @@ std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, co
   return is_still ? make_still(file) : make_picture_sequence(file);
 }
 
+std::string files_of(const std::filesystem::path& file, bool is_still, std::int64_t frames) {
+  if (is_still || video_format(lower_case(file.extension().string()))) return file.string();
+  const std::string first = numbered_picture(file, 0).string();
+  return frames == 1 ? first : fmt::format("{} ... {}", first, numbered_picture(file, frames - 1).string());
+}
+
 }  // namespace harness

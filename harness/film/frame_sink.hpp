@@ -1,8 +1,10 @@
 // The destination of a film's frames: a video, a sequence of pictures, or a single picture.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "sim/render/image.hpp"
 
@@ -29,5 +31,9 @@ class FrameSink {
 /// std::runtime_error if the encoder is not installed, with a message that says what to install.
 std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, const FrameFormat& format,
                                            bool is_still);
+
+/// The names of all files that such a sink has written, for a message: for many numbered pictures the first
+/// and the last.
+std::string files_of(const std::filesystem::path& file, bool is_still, std::int64_t frames);
 
 }  // namespace harness

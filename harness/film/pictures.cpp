@@ -31,17 +31,13 @@ class PictureSequence : public FrameSink {
  public:
   explicit PictureSequence(std::filesystem::path file) : file_(std::move(file)) {}
 
-  void write(const render::Image& frame) override {
-    const std::string name =
-        fmt::format("{}_{:05}{}", file_.stem().string(), next_++, file_.extension().string());
-    write_whole(file_.parent_path() / name, frame);
-  }
+  void write(const render::Image& frame) override { write_whole(numbered_picture(file_, next_++), frame); }
 
   void finish() override {}
 
  private:
   std::filesystem::path file_;
-  int next_ = 0;
+  std::int64_t next_ = 0;
 };
 
 class Still : public FrameSink {
@@ -55,6 +51,11 @@ class Still : public FrameSink {
 };
 
 }  // namespace
+
+std::filesystem::path numbered_picture(const std::filesystem::path& file, std::int64_t number) {
+  return file.parent_path() /
+         fmt::format("{}_{:05}{}", file.stem().string(), number, file.extension().string());
+}
 
 std::unique_ptr<FrameSink> make_picture_sequence(const std::filesystem::path& file) {
   return std::make_unique<PictureSequence>(file);

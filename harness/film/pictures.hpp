@@ -1,6 +1,7 @@
 // Films as PNG files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +11,9 @@ namespace harness {
 
 /// Each frame in a file of its own: for a.png a_00000.png, a_00001.png, ...
 std::unique_ptr<FrameSink> make_picture_sequence(const std::filesystem::path& file);
+
+/// The file of one of these frames.
+std::filesystem::path numbered_picture(const std::filesystem::path& file, std::int64_t number);
 
 /// One frame, in exactly this file.
 std::unique_ptr<FrameSink> make_still(const std::filesystem::path& file);
