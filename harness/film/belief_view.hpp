@@ -60,6 +60,7 @@ class BeliefView {
   const Series& position_errors() const { return position_errors_; }  // [m]
   const Series& three_sigma() const { return three_sigma_; }          // [m]
   const MatrixPicture& matrix() const { return matrix_; }
+  seif::BeliefMatrix kind() const { return estimator_.filter->belief_matrix(); }  // of the matrix
 
  private:
   void read_means(const Gaze& gaze);

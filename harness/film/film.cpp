@@ -50,6 +50,25 @@ Rgb colour_of(const worlds::World& world, const std::string& name) {
   return colour_of_estimator(choice == world.estimators.end() ? name : choice->type);
 }
 
+std::vector<std::size_t> indices_of(const std::vector<std::string>& names, const Believers& believers) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names) {
+    const auto it = std::ranges::find(believers.estimators, name, &LiveEstimator::name);
+    if (it == believers.estimators.end())
+      throw BadInput(fmt::format("there is no estimator '{}' to film", name));
+    indices.push_back(static_cast<std::size_t>(it - believers.estimators.begin()));
+  }
+  return indices;
+}
+
+/// Which of these estimators keep a matrix.
+std::vector<bool> matrices_of(const std::vector<std::size_t>& filmed, const Believers& believers) {
+  std::vector<bool> keeps;
+  for (const std::size_t i : filmed)
+    keeps.push_back(believers.estimators[i].filter->belief_matrix() != seif::BeliefMatrix::none);
+  return keeps;
+}
+
 void append_trail(const Trail& trail, const Vector2d& head, const render::Colour& colour, float width,
                   render::Marks& marks) {
   trail.for_each_leg(head, [&](const Vector2d& from, const Vector2d& to) {
@@ -122,7 +141,8 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
       believers_(believers),
       sink_(std::move(sink)),
       renderer_(plan_.world.film.width, plan_.world.film.height),
-      layout_(layout_of(plan_.world.film, static_cast<int>(filmed_estimators(plan_.world).size()))),
+      filmed_(indices_of(filmed_estimators(plan_.world), believers)),
+      layout_(layout_of(plan_.world.film, matrices_of(filmed_, believers))),
       stage_(plan_.world, plan_.knows_world, log),
       sight_(plan_.world, plan_.knows_world, log.T_robot_sensor),
       camera_man_(brief_of(plan_.world.film, stage_, layout_.views.front())),
@@ -132,13 +152,10 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
       truth_(log.true_start),
       past_{plan_.start, plan_.clock.start,
             std::max((plan_.clock.start - plan_.start) / past_notes, same_time), 1} {
-  for (const std::string& name : filmed_estimators(plan_.world)) {
-    const auto it = std::ranges::find(believers.estimators, name, &LiveEstimator::name);
-    if (it == believers.estimators.end())
-      throw BadInput(fmt::format("there is no estimator '{}' to film", name));
-    filmed_.push_back(static_cast<std::size_t>(it - believers.estimators.begin()));
-    const int bins = std::max(2, static_cast<int>(layout_.times.value_or(Frame{0, 0, 400, 0}).width / 2.0F));
-    views_.emplace_back(*it, colour_of(plan_.world, name), plan_.start, plan_.end, bins);
+  const int bins = std::max(2, static_cast<int>(layout_.times.value_or(Frame{0, 0, 400, 0}).width / 2.0F));
+  for (const std::size_t i : filmed_) {
+    const LiveEstimator& estimator = believers.estimators[i];
+    views_.emplace_back(estimator, colour_of(plan_.world, estimator.name), plan_.start, plan_.end, bins);
   }
   scene_.views.resize(layout_.views.size());
   scene_.shadows = plan_.world.film.layers.shadows;
@@ -291,8 +308,9 @@ void Film::compose_overlay(double t) {
                    {plan_.name, plan_.knows_world ? plan_.world.description : "", facts_at(t)}, overlay);
   for (std::size_t i = 0; layers.caption && i < views_.size(); ++i)
     append_view_title(layout_.views[i], scale, views_[i], overlay);
-  for (std::size_t i = 0; i < layout_.matrices.size(); ++i)
-    append_matrix(layout_.matrices[i], scale, views_[i], overlay);
+  for (std::size_t i = 0; i < layout_.matrices.size(); ++i) {
+    if (layout_.matrices[i]) append_matrix(*layout_.matrices[i], scale, views_[i], overlay);
+  }
   if (layout_.times) {
     Chart chart{*layout_.times, "time of an update", "µs", 0, Scale::logarithmic, {}};
     for (const BeliefView& view : views_)

@@ -85,11 +85,11 @@ class Film final : public RunListener {
   const Believers& believers_;
   std::unique_ptr<FrameSink> sink_;
   render::Renderer renderer_;
+  std::vector<std::size_t> filmed_;  // for each view, the index of its estimator in the run
   Layout layout_;
   Stage stage_;
   Sight sight_;
   CameraMan camera_man_;
-  std::vector<std::size_t> filmed_;  // for each view, the index of its estimator in the run
   std::vector<BeliefView> views_;
   Trail true_trail_;
   Trail odometry_trail_;

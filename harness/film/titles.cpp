@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "harness/film/fitted_text.hpp"
 #include "harness/film/paint.hpp"
@@ -32,6 +33,22 @@ std::string figures_of(const BeliefView& belief) {
   std::string text = fmt::format("{} landmarks", belief.landmarks());
   if (belief.links() > 0) text += fmt::format(" · {} links", belief.links());
   return text;
+}
+
+/// Appends the scale of a matrix: a strip of its shades, and strengths below it.
+void append_shades(const Frame& frame, float scale, seif::BeliefMatrix matrix, Overlay& overlay) {
+  overlay.push_back(
+      MatrixPicture::scale({frame.x, frame.y}, {frame.x + frame.width, frame.y + frame.height}));
+  const float baseline = frame.y + frame.height + 10.0F * scale;
+  const auto label = [&](float share, render::Align align, std::string words) {
+    append_text(overlay, {frame.x + share * frame.width, baseline}, 10.0F * scale, align,
+                render::Weight::regular, paints::faint_ink, std::move(words));
+  };
+  label(0.0F, render::Align::left, "0");
+  for (const float strength : MatrixPicture::ticks(matrix)) {
+    const float share = MatrixPicture::darkness(matrix, strength);
+    label(share, share < 0.99F ? render::Align::centre : render::Align::right, fmt::format("{:g}", strength));
+  }
 }
 
 /// Places the entries of a legend in two columns.
@@ -130,19 +147,22 @@ void append_view_title(const Frame& frame, float scale, const BeliefView& belief
 }
 
 void append_matrix(const Frame& frame, float scale, const BeliefView& belief, Overlay& overlay) {
-  if (belief.matrix().empty()) return;
-  const bool is_information = belief.matrix().matrix() == seif::BeliefMatrix::information;
   const float left = frame.x + 12.0F * scale;
+  const bool is_information = belief.kind() == seif::BeliefMatrix::information;
+  std::string title = is_information ? "information" : "covariance";
+  if (!belief.matrix().empty()) title += fmt::format(", {:.0f} % filled", 100.0 * belief.matrix().fill());
   append_text(overlay, {left, frame.y + 17.0F * scale}, 11.5F * scale, render::Align::left,
-              render::Weight::bold, belief.colour(),
-              fmt::format("{}, {:.0f} % filled", is_information ? "information" : "covariance",
-                          100.0 * belief.matrix().fill()));
-  const float edge = std::floor(frame.height - 32.0F * scale);
+              render::Weight::bold, belief.colour(), title);
+  const float edge = std::floor(frame.height - 50.0F * scale);
   const Vector2f min(std::round(left), std::round(frame.y + 24.0F * scale));
   const float hair = std::max(1.0F, std::round(scale));
   append_box(overlay, {min.x() - hair, min.y() - hair, edge + 2.0F * hair, edge + 2.0F * hair},
              paint(paints::hairline));
-  overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
+  if (belief.matrix().empty())
+    append_box(overlay, {min.x(), min.y(), edge, edge}, paint(paints::paper));
+  else
+    overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
+  append_shades({min.x(), min.y() + edge + 5.0F * scale, edge, 5.0F * scale}, scale, belief.kind(), overlay);
 }
 
 void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
