@@ -105,7 +105,7 @@ class Plot {
   void append_band(const Curve& curve, Overlay& overlay) const {
     if (curve.band == nullptr) return;
     render::Band band;
-    band.colour = paint(curve.colour, 0.14F);
+    band.colour = paint(curve.colour, band_alpha);
     for (int bin = 0; bin < curve.band->bins(); ++bin) {
       const std::optional<double> value = curve.band->value(bin);
       if (value) band.points.emplace_back(x_of(*curve.band, bin), y_of(*value), y_of(0.0));
@@ -120,7 +120,7 @@ class Plot {
       const std::optional<double> value = curve.band->value(bin);
       if (value) points.emplace_back(x_of(*curve.band, bin), y_of(*value));
     }
-    append_dashes(points, {1.5F * scale_, 5.0F * scale_, 3.5F * scale_, paint(curve.colour)}, overlay);
+    append_dashes(points, chart_dashes(scale_, curve.colour), overlay);
   }
 
   void append_curve(const Curve& curve, Overlay& overlay) const {
@@ -209,6 +209,10 @@ class Plot {
 };
 
 }  // namespace
+
+Dashes chart_dashes(float scale, Rgb colour) {
+  return {1.5F * scale, 5.0F * scale, 3.5F * scale, paint(colour)};
+}
 
 void append_dashes(const std::vector<Eigen::Vector2f>& points, const Dashes& dashes, Overlay& overlay) {
   float left = dashes.length;  // of the present dash or gap

@@ -44,6 +44,11 @@ struct Dashes {
   render::Colour colour;
 };
 
+/// The dashes of a band's edge.
+Dashes chart_dashes(float scale, Rgb colour);
+
+inline constexpr float band_alpha = 0.14F;  // [-] of a filled band
+
 void append_dashes(const std::vector<Eigen::Vector2f>& points, const Dashes& dashes,
                    std::vector<render::OverlayItem>& overlay);
 

@@ -157,6 +157,10 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
     const LiveEstimator& estimator = believers.estimators[i];
     views_.emplace_back(estimator, colour_of(plan_.world, estimator.name), plan_.start, plan_.end, bins);
   }
+  std::vector<Shown> shown;
+  for (const BeliefView& view : views_)
+    shown.push_back({view.name(), view.colour(), view.kind() == seif::BeliefMatrix::information});
+  legend_ = legend_entries(plan_.world.film.layers, legend_facts(plan_.world, plan_.knows_world, log), shown);
   scene_.views.resize(layout_.views.size());
   scene_.shadows = plan_.world.film.layers.shadows;
   scene_.ground = stage_.ground(plan_.world.film.layers.grid);
@@ -323,7 +327,7 @@ void Film::compose_overlay(double t) {
       chart.curves.push_back({view.name(), view.colour(), &view.position_errors(), &view.three_sigma()});
     append_chart(chart, scale, overlay);
   }
-  if (layout_.legend) append_legend(*layout_.legend, scale, layers, views_, now_.has_value(), overlay);
+  if (layout_.legend) append_legend(*layout_.legend, scale, legend_, overlay);
 }
 
 }  // namespace harness

@@ -14,6 +14,7 @@
 #include "harness/film/film_clock.hpp"
 #include "harness/film/frame_sink.hpp"
 #include "harness/film/layout.hpp"
+#include "harness/film/legend.hpp"
 #include "harness/film/sight.hpp"
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
@@ -91,6 +92,7 @@ class Film final : public RunListener {
   Sight sight_;
   CameraMan camera_man_;
   std::vector<BeliefView> views_;
+  std::vector<LegendEntry> legend_;
   Trail true_trail_;
   Trail odometry_trail_;
   double t_;                       // [s] of the last event

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -50,57 +49,6 @@ void append_shades(const Frame& frame, float scale, seif::BeliefMatrix matrix, O
     label(share, share < 0.99F ? render::Align::centre : render::Align::right, fmt::format("{:g}", strength));
   }
 }
-
-/// Places the entries of a legend in two columns.
-class Legend {
- public:
-  Legend(const Frame& frame, float scale, Overlay& overlay)
-      : frame_(frame), scale_(scale), overlay_(overlay) {}
-
-  void line(Rgb colour, float width, const std::string& words) {
-    const Vector2f p = next(words);
-    overlay_.push_back(
-        render::Polyline{{p, p + Vector2f(22.0F * scale_, 0.0F)}, width * scale_, paint(colour)});
-  }
-
-  void disk(Rgb colour, float radius, const std::string& words) {
-    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
-    overlay_.push_back(render::Polyline{{p, p}, 2.0F * radius * scale_, paint(colour)});
-  }
-
-  void ring(Rgb colour, const std::string& words) {
-    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
-    render::Polyline ellipse{{}, 1.4F * scale_, paint(colour)};
-    constexpr int corners = 32;
-    for (int i = 0; i <= corners; ++i) {
-      const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / corners;
-      ellipse.points.push_back(p + scale_ * Vector2f(9.0F * std::cos(angle), 5.0F * std::sin(angle)));
-    }
-    overlay_.push_back(std::move(ellipse));
-  }
-
- private:
-  static constexpr int rows = 6;
-
-  /// Writes the text of the next entry. Returns the middle of the left edge of its mark.
-  Vector2f next(const std::string& words) {
-    const int column = count_ / rows;
-    const int row = count_ % rows;
-    ++count_;
-    const float pitch = (frame_.height - 20.0F * scale_) / rows;
-    const Vector2f p(frame_.x + 14.0F * scale_ + static_cast<float>(column) * 0.5F * frame_.width,
-                     frame_.y + 10.0F * scale_ + (static_cast<float>(row) + 0.5F) * pitch);
-    append_text(overlay_, p + Vector2f(30.0F * scale_, 4.5F * scale_), 12.5F * scale_, render::Align::left,
-                render::Weight::regular, paints::ink,
-                fitted(words, 12.5F * scale_, render::Weight::regular, 0.5F * frame_.width - 48.0F * scale_));
-    return p;
-  }
-
-  Frame frame_;
-  float scale_;
-  Overlay& overlay_;
-  int count_ = 0;
-};
 
 }  // namespace
 
@@ -163,24 +111,6 @@ void append_matrix(const Frame& frame, float scale, const BeliefView& belief, Ov
   else
     overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
   append_shades({min.x(), min.y() + edge + 5.0F * scale, edge, 5.0F * scale}, scale, belief.kind(), overlay);
-}
-
-void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
-                   const std::vector<BeliefView>& beliefs, bool has_truth, Overlay& overlay) {
-  Legend legend(frame, scale, overlay);
-  if (layers.truth && has_truth) legend.line(palette::truth, 2.0F, "true way");
-  if (layers.odometry) legend.line(palette::odometry, 2.0F, "odometry alone");
-  for (const BeliefView& belief : beliefs) {
-    if (layers.estimate) legend.line(belief.colour(), 2.4F, belief.name());
-  }
-  if (layers.ellipses && !beliefs.empty()) legend.ring(beliefs.front().colour(), "2σ: where it may be");
-  if (layers.errors && has_truth) legend.line(palette::purple, 2.0F, "error");
-  if (layers.rays) legend.line(palette::sky_blue, 2.0F, "seen");
-  if (layers.rays && has_truth) legend.line(paints::hidden_ray, 2.0F, "hidden");
-  if (layers.landmarks && !beliefs.empty())
-    legend.disk(beliefs.front().colour(), 2.8F, "landmark, estimated");
-  if (layers.active) legend.disk(palette::orange, 5.0F, "active: tied to robot");
-  if (layers.links) legend.line(paints::faint_ink, 1.2F, "link of information");
 }
 
 void append_panel(const Layout& layout, Overlay& overlay) {
