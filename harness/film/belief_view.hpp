@@ -68,6 +68,8 @@ class BeliefView {
   void read_couplings(const worlds::FilmLayers& layers);
   void read_covariances(const worlds::FilmLayers& layers);
   void read_all_covariances();
+  void note_active();
+  double freshness(seif::LandmarkId from, seif::LandmarkId to) const;
   void note_sigma(const Eigen::Matrix3d& covariance);
   void append_map(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
                   render::Things& things) const;
@@ -89,7 +91,7 @@ class BeliefView {
   struct DrawnLink {
     seif::LandmarkId from;
     seif::LandmarkId to;
-    double strength;  // [-]
+    double weight;  // [-] strength times freshness
   };
 
   const LiveEstimator& estimator_;
@@ -110,6 +112,9 @@ class BeliefView {
   std::optional<Eigen::Matrix3d> pose_covariance_;                     // empty if not known
   std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as read last
 
+  double ageing_;                                             // [s] time constant with which links fade
+  std::unordered_map<seif::LandmarkId, double> last_active_;  // [s] when each had a link to the robot last
+
   // For the present frame; reused.
   seif::Pose2 pose_;
   std::vector<seif::LandmarkId> in_view_;
@@ -117,7 +122,7 @@ class BeliefView {
   std::vector<seif::Coupling> couplings_;
   std::vector<seif::LandmarkId> active_;  // ascending
   std::vector<DrawnLink> drawn_links_;
-  double weakest_drawn_ = 0.0;  // [-] links of at least this strength are drawn; 0: all
+  double weakest_drawn_ = 0.0;  // [-] links of at least this weight are drawn; 0: all
 };
 
 }  // namespace harness
