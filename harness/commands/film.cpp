@@ -48,6 +48,9 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   folder->plan.clock = film_clock(settings, folder->plan.start, folder->plan.end,
                                   is_still ? arguments.film.at : arguments.film.from,
                                   is_still ? arguments.film.at : arguments.film.to);
+  // A single picture has the frame that it would have in a film of the whole run.
+  folder->plan.path = is_still ? path_area(log, folder->plan.start, folder->plan.end)
+                               : path_area(log, folder->plan.clock.start, folder->plan.clock.end);
   const std::filesystem::path file = file_of(arguments);
   const Clock::time_point begin = Clock::now();
   const FilmResult result = film_folder(

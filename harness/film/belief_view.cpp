@@ -288,12 +288,13 @@ void BeliefView::append_robot(const Gaze& gaze, const worlds::FilmLayers& layers
   trail_.for_each_leg(p, [&](const Vector2d& from, const Vector2d& to) {
     marks.strokes.push_back({above_ground(from), above_ground(to), 2.0F * gaze.scale, paint(colour_)});
   });
-  // The arrowhead is half a metre long in the world. With a fixed size on the image it would turn with the
-  // camera.
+  // The arrowhead is half a metre long in the world, or larger with the robot. With a fixed size on the image
+  // it would turn with the camera.
+  const double size = gaze.robot_size;
   for (const double side : {2.6, -2.6}) {
-    const Vector2d barb = pose_ * Vector2d(0.35 + 0.5 * std::cos(side), 0.5 * std::sin(side));
-    marks.strokes.push_back(
-        {above_ground(pose_ * Vector2d(0.35, 0.0)), above_ground(barb), 2.6F * gaze.scale, paint(colour_)});
+    const Vector2d barb = pose_ * Vector2d(size * (0.35 + 0.5 * std::cos(side)), size * 0.5 * std::sin(side));
+    marks.strokes.push_back({above_ground(pose_ * Vector2d(size * 0.35, 0.0)), above_ground(barb),
+                             2.6F * gaze.scale, paint(colour_)});
   }
 }
 

@@ -28,6 +28,7 @@ struct Gaze {
   float scale;           // [-] factor for lengths in pixels
   float mark_scale;      // [-] the same for marks that come by the thousands: smaller if the camera is far
                          // away
+  double robot_size;     // [-] the robot is drawn this much larger than it is, so that it can be seen
   double smallest_mark;  // [m] anything shorter is hidden behind the dot of a landmark
 };
 

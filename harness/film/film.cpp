@@ -132,7 +132,8 @@ FilmPlan film_plan(const worlds::World& world) {
           world.seed,
           0.0,
           world.duration,
-          film_clock(world.film, 0.0, world.duration, {}, {})};
+          film_clock(world.film, 0.0, world.duration, {}, {}),
+          {}};
 }
 
 Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
@@ -143,7 +144,7 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
       renderer_(plan_.world.film.width, plan_.world.film.height),
       filmed_(indices_of(filmed_estimators(plan_.world), believers)),
       layout_(layout_of(plan_.world.film, matrices_of(filmed_, believers))),
-      stage_(plan_.world, plan_.knows_world, log),
+      stage_(plan_.world, plan_.knows_world, log, plan_.path),
       sight_(plan_.world, plan_.knows_world, log.T_robot_sensor),
       camera_man_(brief_of(plan_.world.film, stage_, layout_.views.front())),
       true_trail_(trail_spacing),
@@ -236,7 +237,7 @@ seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
   return believers_.dead_reckoning * T_since;
 }
 
-Gaze Film::gaze_of(const render::Camera& camera) const {
+Gaze Film::gaze_of(const render::Camera& camera, const seif::Pose2& robot) const {
   constexpr double full_size = 12.0;  // [px/m] landmark marks have full size above this scale ...
   constexpr double smallest =
       0.4;  // [-] ... and at least this share of it below: the marks of a whole map must not cover the map
@@ -251,15 +252,22 @@ Gaze Film::gaze_of(const render::Camera& camera) const {
                                                 (camera.eye - camera.target).norm();  // [m]
   const double pixels_per_metre = view.height / seen / layout_.scale;
   const double share = std::clamp(pixels_per_metre / full_size, smallest, 1.0);
-  return {frustum, frustum.ground(is_whole ? 1e6 : farthest_view * stage_.reach()), layout_.scale,
-          layout_.scale * static_cast<float>(share), dot * share / (nearest * pixels_per_metre)};
+  constexpr double shortest_robot = 26.0;  // [px]
+  const double robot_length = stage_.robot_length() * view.height / layout_.scale *
+                              frustum.image_heights_per_metre({robot.x, robot.y, 0.0});  // [px]
+  return {frustum,
+          frustum.ground(is_whole ? 1e6 : farthest_view * stage_.reach()),
+          layout_.scale,
+          layout_.scale * static_cast<float>(share),
+          std::max(1.0, shortest_robot / robot_length),
+          dot * share / (nearest * pixels_per_metre)};
 }
 
 void Film::compose(double t, const seif::Pose2& T_since) {
   const worlds::FilmLayers& layers = plan_.world.film.layers;
-  const render::Camera camera =
-      camera_man_.camera(best_pose(T_since), next_frame_ == 0 ? 0.0 : 1.0 / plan_.clock.fps);
-  const Gaze gaze = gaze_of(camera);
+  const seif::Pose2 robot = best_pose(T_since);
+  const render::Camera camera = camera_man_.camera(robot, next_frame_ == 0 ? 0.0 : 1.0 / plan_.clock.fps);
+  const Gaze gaze = gaze_of(camera, robot);
   compose_things(gaze, T_since);
   const std::optional<seif::Pose2> true_pose = now_ ? std::optional(now_->T_world_robot) : std::nullopt;
   for (std::size_t i = 0; i < layout_.views.size(); ++i) {
@@ -283,7 +291,7 @@ void Film::compose_things(const Gaze& gaze, const seif::Pose2& T_since) {
   clear(scene_.things);
   stage_.append_surroundings(gaze.frustum, gaze.area, scene_.things);
   const seif::Pose2 pose = best_pose(T_since);
-  stage_.append_robot(now_.value_or(TruePose{0.0, pose, 0.0, 0.0}), scene_.things);
+  stage_.append_robot(now_.value_or(TruePose{0.0, pose, 0.0, 0.0}), gaze.robot_size, scene_.things);
   if (layers.range) sight_.append_range(pose, gaze.scale, scene_.things);
   if (layers.rays) sight_.append_rays(pose, stage_.sensor_height(), gaze.scale, scene_.things);
   const seif::Pose2 reckoned = believers_.dead_reckoning * T_since;

@@ -34,6 +34,7 @@ struct FilmPlan {
   double start = 0.0;  // [s] simulated time at which the charts begin
   double end = 0.0;    // [s] simulated time at which the charts end
   FilmClock clock;
+  std::optional<Area> path;  // [m] where the robot drives while the film lasts; empty if not known
 };
 
 /// The estimators that a film of this world shows: those that the world file names for the film. If it names
@@ -76,7 +77,7 @@ class Film final : public RunListener {
   void advance_to(double t, const std::optional<TruePose>& truth, const seif::Pose2& increment);
   void draw_frame(double t, const seif::Pose2& T_since);
   void compose(double t, const seif::Pose2& T_since);
-  Gaze gaze_of(const render::Camera& camera) const;
+  Gaze gaze_of(const render::Camera& camera, const seif::Pose2& robot) const;
   void compose_things(const Gaze& gaze, const seif::Pose2& T_since);
   void compose_overlay(double t);
   std::string facts_at(double t) const;
