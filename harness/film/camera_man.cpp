@@ -110,11 +110,12 @@ render::Camera CameraMan::overview_from(double elevation) const {
 render::Camera CameraMan::overview() const {
   constexpr double lowest = 0.9;   // [rad]
   constexpr double highest = 1.3;  // [rad]
+  constexpr double tall = 1.64;    // [-] of 2: the titles have their place above the subject
   const double elevation = bisect(
       lowest, highest,
       [&](double tried) {
         const Extent extent = extent_on(Frustum(overview_from(tried), brief_.aspect), brief_.subject);
-        return extent.max.y() - extent.min.y() >= 1.9 * filled;
+        return extent.max.y() - extent.min.y() >= tall;
       },
       10);
   return overview_from(elevation);

@@ -252,7 +252,7 @@ Gaze Film::gaze_of(const render::Camera& camera, const seif::Pose2& robot) const
                                                 (camera.eye - camera.target).norm();  // [m]
   const double pixels_per_metre = view.height / seen / layout_.scale;
   const double share = std::clamp(pixels_per_metre / full_size, smallest, 1.0);
-  constexpr double shortest_robot = 26.0;  // [px]
+  constexpr double shortest_robot = 18.0;  // [px]
   const double robot_length = stage_.robot_length() * view.height / layout_.scale *
                               frustum.image_heights_per_metre({robot.x, robot.y, 0.0});  // [px]
   return {frustum,

@@ -314,6 +314,47 @@ TEST_F(FilmTest, MovesTheRobotBetweenTheMeasurements) {
   for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_NE(frames[i].rgb, frames[i - 1].rgb) << i;
 }
 
+TEST_F(FilmTest, FitsAnOverviewToThePath) {
+  worlds::World world = bare_world(0.4);
+  world.landmark_sensor.max_range = 4.0;
+  world.landmarks.push_back({{200.0, 0.0}, 0.01});  // never seen
+  PreparedRun run = prepare_run(world, registry());
+  const Stage whole(world, true, *run.log, {});
+  const Stage fitted(world, true, *run.log, Area{{-1.0, -2.0}, {10.0, 2.0}});
+  EXPECT_EQ(whole.subject().max.x(), 200.5);
+  EXPECT_EQ(fitted.subject().max.x(), 14.0);
+  EXPECT_EQ(fitted.subject().min, whole.subject().min) << "and not more than the world";
+  const Stage outside(world, true, *run.log, Area{{-50.0, 0.0}, {10.0, 0.0}});
+  EXPECT_EQ(outside.subject().min.x(), -50.5) << "but the whole path";
+}
+
+TEST_F(FilmTest, KnowsThePathThatIsToCome) {
+  test::write_file(
+      folder_ / "truth.csv",
+      "t,x,y,theta,left_wheel,right_wheel\n0,0,9,0,0,0\n1,1,0,0,0,0\n2,2,-1,0,0,0\n3,3,5,0,0,0\n");
+  const std::optional<Area> all = path_area(folder_.path(), 0.0, 9.0);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->min, Vector2d(0.0, -1.0));
+  EXPECT_EQ(all->max, Vector2d(3.0, 9.0));
+  const std::optional<Area> part = path_area(folder_.path(), 1.5, 2.5);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->min, Vector2d(1.0, -1.0));
+  EXPECT_EQ(part->max, Vector2d(2.0, 0.0));
+  EXPECT_FALSE(path_area(folder_ / "nowhere", 0.0, 1.0));
+}
+
+TEST_F(FilmTest, DrawsTheRobotLargeEnoughToBeSeen) {
+  worlds::World world = bare_world(0.4);
+  world.film.camera = worlds::FilmCamera::fixed;
+  world.film.eye = {0.0, 0.0, 300.0};
+  world.ground_size = {400.0, 400.0};
+  world.film.target = {0.0, 0.0, 0.0};
+  const render::Image last = film_live(world, folder_ / "run").back();
+  const Rgb8 ground = colour_at(last, 200, 200);
+  for (const int dx : {-3, 0, 3}) EXPECT_GT(contrast(last, {320.0 + dx, 320.0}, ground), 60) << dx;
+  for (const int dx : {-40, 40}) EXPECT_LT(contrast(last, {320.0 + dx, 320.0}, ground), 8) << dx;
+}
+
 TEST_F(FilmTest, IsTheSameLiveAndFromTheFolder) {
   worlds::World world = test::small_world();
   world.duration = 6.0;
