@@ -277,6 +277,14 @@ TEST(FrameSink, GivesAGifNoMoreFramesThanItsClockHasTime) {
   EXPECT_EQ(values.at("nb_read_frames"), "20");
 }
 
+TEST(FrameSink, GivesAGifOnePaletteForAllFrames) {
+  const TemporaryFolder folder;
+  write_film(folder / "film.gif", 60);
+  constexpr std::uintmax_t palette = 768;  // [byte]
+  EXPECT_LT(std::filesystem::file_size(folder / "film.gif"), 60 * palette);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
 TEST(FrameSink, NumbersPictures) {
   const TemporaryFolder folder;
   write_film(folder / "new" / "deep" / "a.b.png", 11);
