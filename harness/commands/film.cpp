@@ -34,6 +34,7 @@ std::filesystem::path file_of(const FilmArguments& arguments) {
 
 int film(const FilmArguments& arguments, const seif::Registry& registry) {
   using Clock = std::chrono::steady_clock;
+  check_film_times(arguments.film);
   std::vector<std::string> overrides = arguments.overrides;
   for (const std::string& override : film_overrides(arguments.film)) overrides.push_back(override);
   std::vector<worlds::Problem> problems;
@@ -49,6 +50,9 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   folder->plan.clock = film_clock(settings, folder->plan.start, folder->plan.end,
                                   is_still ? arguments.film.at : arguments.film.from,
                                   is_still ? arguments.film.at : arguments.film.to);
+  // A single picture has the frame that it would have in a film of the whole run.
+  folder->plan.path = is_still ? path_area(log, folder->plan.start, folder->plan.end)
+                               : path_area(log, folder->plan.clock.start, folder->plan.clock.end);
   const std::filesystem::path file = file_of(arguments);
   check_frame_sink(file, is_still, arguments.force ? Existing::replace : Existing::keep);
   const Clock::time_point begin = Clock::now();
@@ -58,7 +62,6 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   const int code = result.interrupted ? 130 : 0;
   if (result.frames == 0) {
-    std::filesystem::remove(file);
     tell_error("seifbed: interrupted before the first frame: there is no film");
     return code;
   }
@@ -67,7 +70,7 @@ int film(const FilmArguments& arguments, const seif::Registry& registry) {
   const std::string length = is_still ? std::string()
                                       : fmt::format(": {:.1f} s, {} frames, {:.1f} drawn in a second",
                                                     frames / settings.fps, result.frames, frames / elapsed);
-  return print_all(fmt::format("Written to {}{}\n", file.string(), length), code);
+  return print_all(fmt::format("Written to {}{}\n", files_of(file, is_still, result.frames), length), code);
 }
 
 }  // namespace
@@ -78,9 +81,9 @@ void add_film(CommandLine line) {
   command->footer(
       "Examples:\n"
       "  seifbed film runs/courtyard-1\n"
-      "  seifbed film runs/courtyard-1 --camera chase --from 60 --to 90 --speed 2 -o chase.mp4\n"
-      "  seifbed film runs/courtyard-1 --estimators seif,seif_report --hide rays,odometry -o two.webm\n"
-      "  seifbed film runs/courtyard-1 --at 45 --size 1920x1080 -o frame.png\n"
+      "  seifbed film runs/courtyard-1 --camera chase --from 60 --to 90 --speed 2 --out chase.mp4\n"
+      "  seifbed film runs/courtyard-1 --estimators seif,seif_report --hide rays,odometry --out two.webm\n"
+      "  seifbed film runs/courtyard-1 --at 45 --size 1920x1080 --out frame.png\n"
       "Nothing is simulated again: the filters are fed with the recorded log. The estimators that are not\n"
       "named are seif and ekf if they ran. A run's world.yaml says how it is filmed unless an option does.\n"
       "Ctrl-C ends the film where it is; what there is can be played.");

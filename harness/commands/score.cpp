@@ -89,7 +89,7 @@ void add_reference(const std::string& name, const ScoreArguments& arguments, con
   } catch (const BadInput&) {
     throw;
   } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "seifbed: the reference {} is missing: {}\n", name, error.what());
+    tell_warning(fmt::format("seifbed: the reference {} is missing: {}", name, error.what()));
     details.missing_references.emplace_back(name, error.what());
   }
 }
@@ -98,7 +98,8 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path& folder = arguments.folder;
   Summary summary = read_summary(folder / "summary.json");
   if (!summary.error.empty())
-    fmt::print(stderr, "seifbed: {} is of the part before this error: {}\n", folder.string(), summary.error);
+    tell_warning(
+        fmt::format("seifbed: {} is of the part before this error: {}", folder.string(), summary.error));
   std::vector<std::string> names;
   for (const EstimatorScore& estimator : summary.score.estimators) names.push_back(estimator.name);
   summary.score = score_folder(folder, names, summary.rpe_interval);

@@ -125,10 +125,11 @@ void rename_output(const std::filesystem::path& unfinished, const std::filesyste
   std::filesystem::rename(unfinished, path);
 }
 
+std::filesystem::path unfinished_name(const std::filesystem::path& path) { return path.string() + ".part"; }
+
 void write_whole_file(const std::filesystem::path& path, std::string_view text, Existing existing) {
   check_output(path, existing);
-  std::filesystem::path unfinished = path;
-  unfinished += ".part";
+  const std::filesystem::path unfinished = unfinished_name(path);
   check_output(unfinished, Existing::replace);
   std::filesystem::remove(unfinished);
   try {

@@ -51,6 +51,9 @@ void check_output(const std::filesystem::path& path, Existing existing);
 void rename_output(const std::filesystem::path& unfinished, const std::filesystem::path& path,
                    Existing existing);
 
+/// The name that a file has until it is whole.
+std::filesystem::path unfinished_name(const std::filesystem::path& path);
+
 /// Writes the whole text, under the rule of check_output. Nobody ever finds a part of the file under its name,
 /// even after a power failure. Throws std::system_error too.
 void write_whole_file(const std::filesystem::path& path, std::string_view text,

@@ -28,6 +28,13 @@ constexpr std::size_t most_links = 2000;     // [-] the strongest links
 constexpr std::size_t most_dots = 4000;      // [-] dots of landmarks, a fixed choice
 constexpr std::size_t most_ellipses = 1000;  // [-] ellipses and error lines, a fixed choice
 
+// How dark links are.
+constexpr double share_of_run = 0.08;  // [-] links fade with this share of the run as the time constant ...
+constexpr double oldest = 0.35;        // [-] ... down to this part of what they were
+constexpr double opacity = 4.0;        // [-] of a fresh link over its strength ...
+constexpr double most_opaque = 0.85;   // [-] ... up to this
+constexpr double faintest = 0.004;     // [-] links of less weight cannot be seen
+
 Vector3d above_ground(const Vector2d& p) { return {p.x(), p.y(), 0.02}; }
 
 /// True for about this share of the landmarks. The choice is always the same; a larger share adds to a
@@ -61,6 +68,7 @@ BeliefView::BeliefView(const LiveEstimator& estimator, Rgb colour, double start,
       update_times_(start, end, bins),
       position_errors_(start, end, bins),
       three_sigma_(start, end, bins),
+      ageing_(std::max(share_of_run * (end - start), 1e-3)),
       pose_(estimator.filter->pose()) {
   trail_.add({pose_.x, pose_.y});
 }
@@ -77,6 +85,7 @@ void BeliefView::update(const UpdateRecord& record) {
     if (landmark != seif::no_landmark && !means_.position(landmark)) new_.push_back(landmark);
   }
   t_ = record.t;
+  note_active();
   links_ = record.counts.links;
   pose_ = record.est_pose;
   ++matrix_refresh_.scans;
@@ -86,6 +95,22 @@ void BeliefView::update(const UpdateRecord& record) {
   if (record.true_pose)
     position_errors_.add(record.t, std::hypot(pose_.x - record.true_pose->x, pose_.y - record.true_pose->y));
   if (record.est_covariance) note_sigma(*record.est_covariance);
+}
+
+/// Reads which landmarks have a link to the robot: only links among these change.
+void BeliefView::note_active() {
+  if (!failure().empty() || kind() != seif::BeliefMatrix::information) return;
+  estimator_.filter->couplings(seif::no_landmark, couplings_);
+  for (const seif::Coupling& coupling : couplings_) last_active_[coupling.other] = t_;
+}
+
+/// How much a link has faded since both of its landmarks could change it, from 1 down to `oldest`. [-]
+double BeliefView::freshness(seif::LandmarkId from, seif::LandmarkId to) const {
+  const auto first = last_active_.find(from);
+  const auto second = last_active_.find(to);
+  if (first == last_active_.end() || second == last_active_.end()) return oldest;
+  const double age = t_ - std::min(first->second, second->second);
+  return oldest + (1.0 - oldest) * std::exp(-age / ageing_);
 }
 
 void BeliefView::note_sigma(const Eigen::Matrix3d& covariance) {
@@ -135,15 +160,17 @@ void BeliefView::read_couplings(const worlds::FilmLayers& layers) {
     for (const seif::Coupling& coupling : couplings_) {
       // A link between two landmarks in view is drawn once. For a landmark out of view, couplings are not
       // read.
-      if (coupling.other != seif::no_landmark && coupling.other > id && means_.position(coupling.other))
-        drawn_links_.push_back({id, coupling.other, coupling.strength});
+      if (coupling.other == seif::no_landmark || coupling.other <= id || !means_.position(coupling.other))
+        continue;
+      const double weight = coupling.strength * freshness(id, coupling.other);
+      if (weight > faintest) drawn_links_.push_back({id, coupling.other, weight});
     }
   }
   weakest_drawn_ = 0.0;
   if (drawn_links_.size() <= most_links) return;
   std::ranges::nth_element(drawn_links_, drawn_links_.begin() + most_links, std::ranges::greater{},
-                           &DrawnLink::strength);
-  weakest_drawn_ = drawn_links_[most_links].strength;
+                           &DrawnLink::weight);
+  weakest_drawn_ = drawn_links_[most_links].weight;
   drawn_links_.resize(most_links);
 }
 
@@ -234,8 +261,9 @@ void BeliefView::append_links(const Gaze& gaze, const worlds::FilmLayers& layers
   std::vector<render::Stroke>& strokes = things.marks_on_top.strokes;
   for (const DrawnLink& link : drawn_links_) {
     // Links near the limit are faint, so that links do not appear or vanish abruptly.
-    const double share = weakest_drawn_ > 0.0 ? std::min(1.0, link.strength / weakest_drawn_ - 1.0) : 1.0;
-    const auto alpha = static_cast<float>(share * (0.06 + 0.8 * link.strength));
+    const double least = std::max(weakest_drawn_, faintest);
+    const double share = std::min(1.0, link.weight / least - 1.0);
+    const auto alpha = static_cast<float>(share * std::min(most_opaque, opacity * link.weight));
     strokes.push_back({above_ground(*means_.position(link.from)), above_ground(*means_.position(link.to)),
                        1.1F * gaze.mark_scale, paint(paints::faint_ink, alpha)});
   }
@@ -260,12 +288,13 @@ void BeliefView::append_robot(const Gaze& gaze, const worlds::FilmLayers& layers
   trail_.for_each_leg(p, [&](const Vector2d& from, const Vector2d& to) {
     marks.strokes.push_back({above_ground(from), above_ground(to), 2.0F * gaze.scale, paint(colour_)});
   });
-  // The arrowhead is half a metre long in the world. With a fixed size on the image it would turn with the
-  // camera.
+  // The arrowhead is half a metre long in the world, or larger with the robot. With a fixed size on the image
+  // it would turn with the camera.
+  const double size = gaze.robot_size;
   for (const double side : {2.6, -2.6}) {
-    const Vector2d barb = pose_ * Vector2d(0.35 + 0.5 * std::cos(side), 0.5 * std::sin(side));
-    marks.strokes.push_back(
-        {above_ground(pose_ * Vector2d(0.35, 0.0)), above_ground(barb), 2.6F * gaze.scale, paint(colour_)});
+    const Vector2d barb = pose_ * Vector2d(size * (0.35 + 0.5 * std::cos(side)), size * 0.5 * std::sin(side));
+    marks.strokes.push_back({above_ground(pose_ * Vector2d(size * 0.35, 0.0)), above_ground(barb),
+                             2.6F * gaze.scale, paint(colour_)});
   }
 }
 

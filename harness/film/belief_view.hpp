@@ -28,6 +28,7 @@ struct Gaze {
   float scale;           // [-] factor for lengths in pixels
   float mark_scale;      // [-] the same for marks that come by the thousands: smaller if the camera is far
                          // away
+  double robot_size;     // [-] the robot is drawn this much larger than it is, so that it can be seen
   double smallest_mark;  // [m] anything shorter is hidden behind the dot of a landmark
 };
 
@@ -60,6 +61,7 @@ class BeliefView {
   const Series& position_errors() const { return position_errors_; }  // [m]
   const Series& three_sigma() const { return three_sigma_; }          // [m]
   const MatrixPicture& matrix() const { return matrix_; }
+  seif::BeliefMatrix kind() const { return estimator_.filter->belief_matrix(); }  // of the matrix
 
  private:
   void read_means(const Gaze& gaze);
@@ -67,6 +69,8 @@ class BeliefView {
   void read_couplings(const worlds::FilmLayers& layers);
   void read_covariances(const worlds::FilmLayers& layers);
   void read_all_covariances();
+  void note_active();
+  double freshness(seif::LandmarkId from, seif::LandmarkId to) const;
   void note_sigma(const Eigen::Matrix3d& covariance);
   void append_map(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
                   render::Things& things) const;
@@ -88,7 +92,7 @@ class BeliefView {
   struct DrawnLink {
     seif::LandmarkId from;
     seif::LandmarkId to;
-    double strength;  // [-]
+    double weight;  // [-] strength times freshness
   };
 
   const LiveEstimator& estimator_;
@@ -109,6 +113,9 @@ class BeliefView {
   std::optional<Eigen::Matrix3d> pose_covariance_;                     // empty if not known
   std::unordered_map<seif::LandmarkId, Eigen::Matrix2d> covariances_;  // each as read last
 
+  double ageing_;                                             // [s] time constant with which links fade
+  std::unordered_map<seif::LandmarkId, double> last_active_;  // [s] when each had a link to the robot last
+
   // For the present frame; reused.
   seif::Pose2 pose_;
   std::vector<seif::LandmarkId> in_view_;
@@ -116,7 +123,7 @@ class BeliefView {
   std::vector<seif::Coupling> couplings_;
   std::vector<seif::LandmarkId> active_;  // ascending
   std::vector<DrawnLink> drawn_links_;
-  double weakest_drawn_ = 0.0;  // [-] links of at least this strength are drawn; 0: all
+  double weakest_drawn_ = 0.0;  // [-] links of at least this weight are drawn; 0: all
 };
 
 }  // namespace harness

@@ -13,6 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double field_of_view = 0.75;  // [rad] vertical
+constexpr double filled = 0.94;         // [-] of the view, by the subject of an overview
 constexpr double calm = 0.6;            // [s] time constant of following, in film time
 
 Vector3d on_ground(const Vector2d& p) { return {p.x(), p.y(), 0.0}; }
@@ -40,8 +41,8 @@ Extent extent_on(const Frustum& frustum, const Area& subject) {
 /// The smallest number between two limits for which a condition holds. The condition holds for all larger
 /// numbers too.
 template <class Condition>
-double bisect(double from, double to, const Condition& holds) {
-  for (int i = 0; i < 40; ++i) {
+double bisect(double from, double to, const Condition& holds, int steps = 40) {
+  for (int i = 0; i < steps; ++i) {
     const double middle = 0.5 * (from + to);
     (holds(middle) ? to : from) = middle;
   }
@@ -54,7 +55,8 @@ render::Camera CameraMan::camera(const seif::Pose2& T_world_robot, double step) 
   film_t_ += step;
   switch (brief_.kind) {
     case worlds::FilmCamera::overview:
-      return overview();
+      if (!overview_) overview_ = overview();
+      return *overview_;
     case worlds::FilmCamera::chase:
       return chase(T_world_robot, step);
     case worlds::FilmCamera::orbit:
@@ -75,9 +77,8 @@ render::Camera CameraMan::camera(const seif::Pose2& T_world_robot, double step) 
 
 /// The camera stands in the south, high up. It is just far enough away for all corners to be in view, and the
 /// margins above and below the subject are equal.
-render::Camera CameraMan::overview() const {
-  constexpr double filled = 0.94;  // [-] of the view
-  const Vector3d line = Vector3d(0.0, 0.62, -0.78).normalized();
+render::Camera CameraMan::overview_from(double elevation) const {
+  const Vector3d line(0.0, std::cos(elevation), -std::sin(elevation));
   const Vector2d middle = 0.5 * (brief_.subject.min + brief_.subject.max);
   const double diagonal = (brief_.subject.max - brief_.subject.min).norm();
   const auto camera_at = [&](double distance, double shift) {
@@ -102,6 +103,22 @@ render::Camera CameraMan::overview() const {
     return extent.min.minCoeff() >= -filled && extent.max.maxCoeff() <= filled;
   });
   return camera_at(distance, shift_for(distance));
+}
+
+/// The camera looks down steeply enough for a wide subject to fill the height of the view too, but never
+/// straight down: walls and posts must show their sides.
+render::Camera CameraMan::overview() const {
+  constexpr double lowest = 0.9;   // [rad]
+  constexpr double highest = 1.3;  // [rad]
+  constexpr double tall = 1.64;    // [-] of 2: the titles have their place above the subject
+  const double elevation = bisect(
+      lowest, highest,
+      [&](double tried) {
+        const Extent extent = extent_on(Frustum(overview_from(tried), brief_.aspect), brief_.subject);
+        return extent.max.y() - extent.min.y() >= tall;
+      },
+      10);
+  return overview_from(elevation);
 }
 
 /// Moves the followed point towards the robot, with a time constant in film time.
@@ -164,6 +181,11 @@ Vector2d Frustum::on_image(const Eigen::Vector3d& p_world) const {
   const Vector3d d = p_world - eye_;
   const double depth = is_orthographic_ ? 1.0 : d.dot(forward_);
   return {d.dot(right_) / (depth * tan_x_), d.dot(up_) / (depth * tan_y_)};
+}
+
+double Frustum::image_heights_per_metre(const Eigen::Vector3d& p_world) const {
+  const double depth = is_orthographic_ ? 1.0 : std::max((p_world - eye_).dot(forward_), 1e-3);
+  return 0.5 / (depth * tan_y_);
 }
 
 bool Frustum::sees(const Eigen::Vector3d& p_world, double radius) const {

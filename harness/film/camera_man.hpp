@@ -30,12 +30,14 @@ class CameraMan {
 
  private:
   render::Camera overview() const;
+  render::Camera overview_from(double elevation) const;
   render::Camera chase(const seif::Pose2& T_world_robot, double step);
   render::Camera orbit(const seif::Pose2& T_world_robot, double step);
   render::Camera top(const seif::Pose2& T_world_robot) const;
   void follow(const seif::Pose2& T_world_robot, double step);
 
   CameraBrief brief_;
+  std::optional<render::Camera> overview_;  // always the same
   bool has_followed_ = false;
   Eigen::Vector2d position_ = Eigen::Vector2d::Zero();  // [m] point to follow: the robot's position, smoothed
   double heading_ = 0.0;                                // [rad] the robot's heading, smoothed
@@ -46,6 +48,9 @@ class CameraMan {
 class Frustum {
  public:
   Frustum(const render::Camera& camera, double aspect);
+
+  /// How long a metre at this point is on an image of height 1. [1/m]
+  double image_heights_per_metre(const Eigen::Vector3d& p_world) const;
 
   /// The position on the image of a point in front of the camera, from (-1, -1), lower left, to (1, 1).
   Eigen::Vector2d on_image(const Eigen::Vector3d& p_world) const;

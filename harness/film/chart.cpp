@@ -105,12 +105,22 @@ class Plot {
   void append_band(const Curve& curve, Overlay& overlay) const {
     if (curve.band == nullptr) return;
     render::Band band;
-    band.colour = paint(curve.colour, 0.14F);
+    band.colour = paint(curve.colour, band_alpha);
     for (int bin = 0; bin < curve.band->bins(); ++bin) {
       const std::optional<double> value = curve.band->value(bin);
       if (value) band.points.emplace_back(x_of(*curve.band, bin), y_of(*value), y_of(0.0));
     }
     if (band.points.size() > 1) overlay.push_back(std::move(band));
+  }
+
+  void append_edge(const Curve& curve, Overlay& overlay) const {
+    if (curve.band == nullptr) return;
+    std::vector<Eigen::Vector2f> points;
+    for (int bin = 0; bin < curve.band->bins(); ++bin) {
+      const std::optional<double> value = curve.band->value(bin);
+      if (value) points.emplace_back(x_of(*curve.band, bin), y_of(*value));
+    }
+    append_dashes(points, chart_dashes(scale_, curve.colour), overlay);
   }
 
   void append_curve(const Curve& curve, Overlay& overlay) const {
@@ -200,10 +210,44 @@ class Plot {
 
 }  // namespace
 
+Dashes chart_dashes(float scale, Rgb colour) {
+  return {1.5F * scale, 5.0F * scale, 3.5F * scale, paint(colour)};
+}
+
+void append_dashes(const std::vector<Eigen::Vector2f>& points, const Dashes& dashes, Overlay& overlay) {
+  float left = dashes.length;  // of the present dash or gap
+  bool is_dash = true;
+  render::Polyline line{{}, dashes.width, dashes.colour};
+  const auto end_dash = [&] {
+    if (line.points.size() > 1) overlay.push_back(line);
+    line.points.clear();
+  };
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    Eigen::Vector2f from = points[i - 1];
+    for (float rest = (points[i] - from).norm(); rest > 0.0F; rest = (points[i] - from).norm()) {
+      const float step = std::min(rest, left);
+      const Eigen::Vector2f to =
+          step == rest ? points[i] : Eigen::Vector2f(from + step / rest * (points[i] - from));
+      if (is_dash && line.points.empty()) line.points.push_back(from);
+      if (is_dash) line.points.push_back(to);
+      left -= step;
+      from = to;
+      if (left > 1e-3F) continue;
+      if (is_dash) end_dash();
+      is_dash = !is_dash;
+      left = is_dash ? dashes.length : dashes.gap;
+    }
+  }
+  end_dash();
+}
+
 void append_chart(const Chart& chart, float scale, Overlay& overlay) {
   const Plot plot(chart, scale);
   plot.append_axes(overlay);
-  for (const Curve& curve : chart.curves) plot.append_band(curve, overlay);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    if (i == 0) plot.append_band(chart.curves[i], overlay);
+    if (i > 0) plot.append_edge(chart.curves[i], overlay);
+  }
   for (const Curve& curve : chart.curves) plot.append_curve(curve, overlay);
   plot.append_head(overlay);
 }

@@ -19,6 +19,7 @@ using Eigen::Vector2d;
 
 constexpr double same_time = 1e-9;      // [s] times this close are the same
 constexpr double longest = 40.0;        // [s] film time, if no speed is given
+constexpr double most_frames = 1e7;     // [-] of a film; drawing them takes days
 constexpr double past_notes = 60.0;     // [-] updates of the charts before the first frame
 constexpr double farthest_view = 12.0;  // [-] in units of the radius of interest around the robot
 
@@ -47,6 +48,25 @@ CameraBrief brief_of(const worlds::Film& film, const Stage& stage, const Frame& 
 Rgb colour_of(const worlds::World& world, const std::string& name) {
   const auto choice = std::ranges::find(world.estimators, name, &worlds::EstimatorChoice::name);
   return colour_of_estimator(choice == world.estimators.end() ? name : choice->type);
+}
+
+std::vector<std::size_t> indices_of(const std::vector<std::string>& names, const Believers& believers) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names) {
+    const auto it = std::ranges::find(believers.estimators, name, &LiveEstimator::name);
+    if (it == believers.estimators.end())
+      throw BadInput(fmt::format("there is no estimator '{}' to film", name));
+    indices.push_back(static_cast<std::size_t>(it - believers.estimators.begin()));
+  }
+  return indices;
+}
+
+/// Which of these estimators keep a matrix.
+std::vector<bool> matrices_of(const std::vector<std::size_t>& filmed, const Believers& believers) {
+  std::vector<bool> keeps;
+  for (const std::size_t i : filmed)
+    keeps.push_back(believers.estimators[i].filter->belief_matrix() != seif::BeliefMatrix::none);
+  return keeps;
 }
 
 void append_trail(const Trail& trail, const Vector2d& head, const render::Colour& colour, float width,
@@ -91,10 +111,17 @@ FilmClock film_clock(const worlds::Film& film, double start, double end, std::op
   clock.start = start + from.value_or(0.0);
   clock.end = std::min(end, start + to.value_or(end - start));
   clock.fps = film.fps;
-  if (clock.start < start || clock.start > end + same_time || clock.end < clock.start - same_time)
+  // Written so that a time that is no number fails too.
+  if (!(clock.start >= start && clock.start <= end + same_time && clock.end >= clock.start - same_time))
     throw BadInput(fmt::format("there is nothing to film from {:g} s to {:g} s: the run takes {:g} s",
                                from.value_or(0.0), to.value_or(end - start), end - start));
   clock.speed = film.speed > 0.0 ? film.speed : speed_for(clock.end - clock.start, longest);
+  const double frames = (clock.end - clock.start) * clock.fps / clock.speed;
+  if (frames > most_frames)
+    throw BadInput(
+        fmt::format("a film of {:g} s at the speed {:g} has {:.3g} frames, and at most {:g} can be "
+                    "drawn: choose a higher speed",
+                    clock.end - clock.start, clock.speed, frames, most_frames));
   return clock;
 }
 
@@ -105,7 +132,8 @@ FilmPlan film_plan(const worlds::World& world) {
           world.seed,
           0.0,
           world.duration,
-          film_clock(world.film, 0.0, world.duration, {}, {})};
+          film_clock(world.film, 0.0, world.duration, {}, {}),
+          {}};
 }
 
 Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
@@ -114,8 +142,9 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
       believers_(believers),
       sink_(std::move(sink)),
       renderer_(plan_.world.film.width, plan_.world.film.height),
-      layout_(layout_of(plan_.world.film, static_cast<int>(filmed_estimators(plan_.world).size()))),
-      stage_(plan_.world, plan_.knows_world, log),
+      filmed_(indices_of(filmed_estimators(plan_.world), believers)),
+      layout_(layout_of(plan_.world.film, matrices_of(filmed_, believers))),
+      stage_(plan_.world, plan_.knows_world, log, plan_.path),
       sight_(plan_.world, plan_.knows_world, log.T_robot_sensor),
       camera_man_(brief_of(plan_.world.film, stage_, layout_.views.front())),
       true_trail_(trail_spacing),
@@ -124,14 +153,15 @@ Film::Film(FilmPlan plan, const LogDescription& log, const Believers& believers,
       truth_(log.true_start),
       past_{plan_.start, plan_.clock.start,
             std::max((plan_.clock.start - plan_.start) / past_notes, same_time), 1} {
-  for (const std::string& name : filmed_estimators(plan_.world)) {
-    const auto it = std::ranges::find(believers.estimators, name, &LiveEstimator::name);
-    if (it == believers.estimators.end())
-      throw BadInput(fmt::format("there is no estimator '{}' to film", name));
-    filmed_.push_back(static_cast<std::size_t>(it - believers.estimators.begin()));
-    const int bins = std::max(2, static_cast<int>(layout_.times.value_or(Frame{0, 0, 400, 0}).width / 2.0F));
-    views_.emplace_back(*it, colour_of(plan_.world, name), plan_.start, plan_.end, bins);
+  const int bins = std::max(2, static_cast<int>(layout_.times.value_or(Frame{0, 0, 400, 0}).width / 2.0F));
+  for (const std::size_t i : filmed_) {
+    const LiveEstimator& estimator = believers.estimators[i];
+    views_.emplace_back(estimator, colour_of(plan_.world, estimator.name), plan_.start, plan_.end, bins);
   }
+  std::vector<Shown> shown;
+  for (const BeliefView& view : views_)
+    shown.push_back({view.name(), view.colour(), view.kind() == seif::BeliefMatrix::information});
+  legend_ = legend_entries(plan_.world.film.layers, legend_facts(plan_.world, plan_.knows_world, log), shown);
   scene_.views.resize(layout_.views.size());
   scene_.shadows = plan_.world.film.layers.shadows;
   scene_.ground = stage_.ground(plan_.world.film.layers.grid);
@@ -196,7 +226,7 @@ void Film::finish(bool has_ended) {
   now_ = truth_;
   while (has_ended && !is_over()) draw_frame(plan_.clock.time_of(next_frame_), {});
   if (!failure_.empty()) throw std::runtime_error(failure_);
-  sink_->finish();
+  if (frames_drawn() > 0) sink_->finish();  // a film without a frame takes no other's place
 }
 
 /// The best known pose: the truth, otherwise the first estimator's pose, otherwise that of odometry.
@@ -207,7 +237,7 @@ seif::Pose2 Film::best_pose(const seif::Pose2& T_since) const {
   return believers_.dead_reckoning * T_since;
 }
 
-Gaze Film::gaze_of(const render::Camera& camera) const {
+Gaze Film::gaze_of(const render::Camera& camera, const seif::Pose2& robot) const {
   constexpr double full_size = 12.0;  // [px/m] landmark marks have full size above this scale ...
   constexpr double smallest =
       0.4;  // [-] ... and at least this share of it below: the marks of a whole map must not cover the map
@@ -222,15 +252,22 @@ Gaze Film::gaze_of(const render::Camera& camera) const {
                                                 (camera.eye - camera.target).norm();  // [m]
   const double pixels_per_metre = view.height / seen / layout_.scale;
   const double share = std::clamp(pixels_per_metre / full_size, smallest, 1.0);
-  return {frustum, frustum.ground(is_whole ? 1e6 : farthest_view * stage_.reach()), layout_.scale,
-          layout_.scale * static_cast<float>(share), dot * share / (nearest * pixels_per_metre)};
+  constexpr double shortest_robot = 18.0;  // [px]
+  const double robot_length = stage_.robot_length() * view.height / layout_.scale *
+                              frustum.image_heights_per_metre({robot.x, robot.y, 0.0});  // [px]
+  return {frustum,
+          frustum.ground(is_whole ? 1e6 : farthest_view * stage_.reach()),
+          layout_.scale,
+          layout_.scale * static_cast<float>(share),
+          std::max(1.0, shortest_robot / robot_length),
+          dot * share / (nearest * pixels_per_metre)};
 }
 
 void Film::compose(double t, const seif::Pose2& T_since) {
   const worlds::FilmLayers& layers = plan_.world.film.layers;
-  const render::Camera camera =
-      camera_man_.camera(best_pose(T_since), next_frame_ == 0 ? 0.0 : 1.0 / plan_.clock.fps);
-  const Gaze gaze = gaze_of(camera);
+  const seif::Pose2 robot = best_pose(T_since);
+  const render::Camera camera = camera_man_.camera(robot, next_frame_ == 0 ? 0.0 : 1.0 / plan_.clock.fps);
+  const Gaze gaze = gaze_of(camera, robot);
   compose_things(gaze, T_since);
   const std::optional<seif::Pose2> true_pose = now_ ? std::optional(now_->T_world_robot) : std::nullopt;
   for (std::size_t i = 0; i < layout_.views.size(); ++i) {
@@ -254,7 +291,7 @@ void Film::compose_things(const Gaze& gaze, const seif::Pose2& T_since) {
   clear(scene_.things);
   stage_.append_surroundings(gaze.frustum, gaze.area, scene_.things);
   const seif::Pose2 pose = best_pose(T_since);
-  stage_.append_robot(now_.value_or(TruePose{0.0, pose, 0.0, 0.0}), scene_.things);
+  stage_.append_robot(now_.value_or(TruePose{0.0, pose, 0.0, 0.0}), gaze.robot_size, scene_.things);
   if (layers.range) sight_.append_range(pose, gaze.scale, scene_.things);
   if (layers.rays) sight_.append_rays(pose, stage_.sensor_height(), gaze.scale, scene_.things);
   const seif::Pose2 reckoned = believers_.dead_reckoning * T_since;
@@ -283,8 +320,9 @@ void Film::compose_overlay(double t) {
                    {plan_.name, plan_.knows_world ? plan_.world.description : "", facts_at(t)}, overlay);
   for (std::size_t i = 0; layers.caption && i < views_.size(); ++i)
     append_view_title(layout_.views[i], scale, views_[i], overlay);
-  for (std::size_t i = 0; i < layout_.matrices.size(); ++i)
-    append_matrix(layout_.matrices[i], scale, views_[i], overlay);
+  for (std::size_t i = 0; i < layout_.matrices.size(); ++i) {
+    if (layout_.matrices[i]) append_matrix(*layout_.matrices[i], scale, views_[i], overlay);
+  }
   if (layout_.times) {
     Chart chart{*layout_.times, "time of an update", "µs", 0, Scale::logarithmic, {}};
     for (const BeliefView& view : views_)
@@ -297,7 +335,7 @@ void Film::compose_overlay(double t) {
       chart.curves.push_back({view.name(), view.colour(), &view.position_errors(), &view.three_sigma()});
     append_chart(chart, scale, overlay);
   }
-  if (layout_.legend) append_legend(*layout_.legend, scale, layers, views_, now_.has_value(), overlay);
+  if (layout_.legend) append_legend(*layout_.legend, scale, legend_, overlay);
 }
 
 }  // namespace harness

@@ -14,6 +14,7 @@
 #include "harness/film/film_clock.hpp"
 #include "harness/film/frame_sink.hpp"
 #include "harness/film/layout.hpp"
+#include "harness/film/legend.hpp"
 #include "harness/film/sight.hpp"
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
@@ -33,6 +34,7 @@ struct FilmPlan {
   double start = 0.0;  // [s] simulated time at which the charts begin
   double end = 0.0;    // [s] simulated time at which the charts end
   FilmClock clock;
+  std::optional<Area> path;  // [m] where the robot drives while the film lasts; empty if not known
 };
 
 /// The estimators that a film of this world shows: those that the world file names for the film. If it names
@@ -40,7 +42,7 @@ struct FilmPlan {
 std::vector<std::string> filmed_estimators(const worlds::World& world);
 
 /// The clock of a film from `from` to `to`, both [s] of simulated time after the run's start. Throws BadInput
-/// if there is nothing to film between them.
+/// if there is nothing to film between them, or more than ten million frames.
 FilmClock film_clock(const worlds::Film& film, double start, double end, std::optional<double> from,
                      std::optional<double> to);
 
@@ -75,7 +77,7 @@ class Film final : public RunListener {
   void advance_to(double t, const std::optional<TruePose>& truth, const seif::Pose2& increment);
   void draw_frame(double t, const seif::Pose2& T_since);
   void compose(double t, const seif::Pose2& T_since);
-  Gaze gaze_of(const render::Camera& camera) const;
+  Gaze gaze_of(const render::Camera& camera, const seif::Pose2& robot) const;
   void compose_things(const Gaze& gaze, const seif::Pose2& T_since);
   void compose_overlay(double t);
   std::string facts_at(double t) const;
@@ -85,12 +87,13 @@ class Film final : public RunListener {
   const Believers& believers_;
   std::unique_ptr<FrameSink> sink_;
   render::Renderer renderer_;
+  std::vector<std::size_t> filmed_;  // for each view, the index of its estimator in the run
   Layout layout_;
   Stage stage_;
   Sight sight_;
   CameraMan camera_man_;
-  std::vector<std::size_t> filmed_;  // for each view, the index of its estimator in the run
   std::vector<BeliefView> views_;
+  std::vector<LegendEntry> legend_;
   Trail true_trail_;
   Trail odometry_trail_;
   double t_;                       // [s] of the last event

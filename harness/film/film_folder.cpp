@@ -121,6 +121,19 @@ std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,
   return result;
 }
 
+std::optional<Area> path_area(const std::filesystem::path& log, double from, double to) {
+  if (!std::filesystem::exists(log / "truth.csv")) return std::nullopt;
+  CsvReader rows(log / "truth.csv", {{"t", "x", "y", "theta"}, {"left_wheel", "right_wheel"}});
+  std::optional<Area> area;
+  while (rows.next() && rows.number(0) <= to) {
+    const Eigen::Vector2d position(rows.number(1), rows.number(2));
+    if (!area || rows.number(0) < from) area = Area{position, position};
+    area->min = area->min.cwiseMin(position);
+    area->max = area->max.cwiseMax(position);
+  }
+  return area;
+}
+
 FilmResult film_folder(FilmableFolder& folder, const std::filesystem::path& log,
                        std::unique_ptr<FrameSink> sink, bool quiet) {
   PreparedRun& replay = folder.replay;

@@ -19,7 +19,7 @@ namespace harness {
 /// A run folder that is ready to be filmed.
 struct FilmableFolder {
   PreparedRun replay;  // with the filmed estimators only
-  FilmPlan plan;       // complete but for the clock
+  FilmPlan plan;       // complete but for clock and path
 };
 
 /// Prepares the film of a run folder. Problems with the settings are appended to `problems`; the result is
@@ -29,6 +29,10 @@ std::optional<FilmableFolder> prepare_film(const std::filesystem::path& folder,
                                            const std::vector<std::string>& overrides,
                                            const seif::Registry& registry,
                                            std::vector<worlds::Problem>& problems);
+
+/// The area of the robot's true path from `from` to `to` [s], both of the log's clock. Empty if the log has no
+/// truth. [m]
+std::optional<Area> path_area(const std::filesystem::path& log, double from, double to);
 
 struct FilmResult {
   std::int64_t frames = 0;  // [-]

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "harness/files/bad_input.hpp"
@@ -63,8 +65,9 @@ void add_film_options(CLI::App& command, FilmOptions& options) {
   const auto add_list = [&](const char* name, std::vector<std::string>& names, const std::string& help) {
     add(name, names, "NAME,...", help)->delimiter(',')->allow_extra_args(false);
   };
-  add("-o", options.out, "FILE",
-      "Film to write: .mp4, .webm, .gif, or .png for numbered pictures, and for the single one of --at");
+  add("--out,-o", options.out, "FILE",
+      "File to write: .mp4, .webm, .gif, or .png. Several estimators share one film. With .png and without "
+      "--at there is a file for each frame: for film.png film_00000.png, film_00001.png, ...");
   add("--camera", options.camera, "NAME", "overview, chase, orbit, top or fixed");
   add("--size", options.size, "WxH", "Width and height [px], both even, such as 1920x1080");
   add("--fps", options.fps, "INT", "Frames for each second of the film")->check(whole_number(1, 240));
@@ -78,6 +81,18 @@ void add_film_options(CLI::App& command, FilmOptions& options) {
   add_list("--estimators", options.estimators, "Film these, one or two");
   add_list("--show", options.show, "Show these layers, whatever is hidden: " + layer_names());
   add_list("--hide", options.hide, "Hide these layers");
+}
+
+void check_film_times(const FilmOptions& options) {
+  const auto check = [](const char* name, std::optional<double> time) {
+    if (time && !(std::isfinite(*time) && *time >= 0.0))
+      throw BadInput(
+          fmt::format("{}: expected a time in seconds after the start of the run, such as 12.5, not '{:g}'",
+                      name, *time));
+  };
+  check("--from", options.from);
+  check("--to", options.to);
+  check("--at", options.at);
 }
 
 std::vector<std::string> film_overrides(const FilmOptions& options) {

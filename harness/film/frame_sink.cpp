@@ -52,9 +52,14 @@ std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, co
 }
 
 void check_frame_sink(const std::filesystem::path& file, bool is_still, Existing existing) {
-  const bool is_numbered = !is_still && lower_case(file.extension().string()) == ".png";
-  const std::string first = fmt::format("{}_00000{}", file.stem().string(), file.extension().string());
-  check_output(is_numbered ? file.parent_path() / first : file, existing);
+  if (is_still || video_format(lower_case(file.extension().string()))) return check_output(file, existing);
+  for (const std::filesystem::path& picture : numbered_pictures(file)) check_output(picture, existing);
+}
+
+std::string files_of(const std::filesystem::path& file, bool is_still, std::int64_t frames) {
+  if (is_still || video_format(lower_case(file.extension().string()))) return file.string();
+  const std::string first = numbered_picture(file, 0).string();
+  return frames == 1 ? first : fmt::format("{} ... {}", first, numbered_picture(file, frames - 1).string());
 }
 
 }  // namespace harness

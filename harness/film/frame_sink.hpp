@@ -1,8 +1,10 @@
 // The destination of a film's frames: a video, a sequence of pictures, or a single picture.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "harness/files/output_file.hpp"
 #include "sim/render/image.hpp"
@@ -31,7 +33,12 @@ class FrameSink {
 std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, const FrameFormat& format,
                                            bool is_still);
 
-/// Throws BadInput if such a sink may not write there; of numbered pictures, if the first may not be written.
+/// Throws BadInput if such a sink may not write there, or if there are numbered pictures of this name that are to
+/// be kept: pictures of two films would be mixed up.
 void check_frame_sink(const std::filesystem::path& file, bool is_still, Existing existing);
+
+/// The names of all files that such a sink has written, for a message: for many numbered pictures the first
+/// and the last.
+std::string files_of(const std::filesystem::path& file, bool is_still, std::int64_t frames);
 
 }  // namespace harness

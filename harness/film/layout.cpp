@@ -26,10 +26,12 @@ Frame take_right(Frame& rest, float width) {
 }
 
 /// The charts share the room that matrices and legend leave.
-void divide_panel(Layout& layout, const worlds::FilmLayers& layers, int estimators) {
+void divide_panel(Layout& layout, const worlds::FilmLayers& layers, const std::vector<bool>& keeps_matrix) {
   Frame rest = *layout.panel;
-  for (int i = 0; layers.matrix && i < estimators; ++i)
-    layout.matrices.push_back(take_left(rest, matrix_width * layout.scale));
+  for (const bool keeps : keeps_matrix) {
+    layout.matrices.emplace_back();
+    if (layers.matrix && keeps) layout.matrices.back() = take_left(rest, matrix_width * layout.scale);
+  }
   if (layers.legend) layout.legend = take_right(rest, legend_width * layout.scale);
   const float width = layers.times && layers.pose_error ? 0.5F * rest.width : rest.width;
   if (layers.times) layout.times = take_left(rest, width);
@@ -38,7 +40,7 @@ void divide_panel(Layout& layout, const worlds::FilmLayers& layers, int estimato
 
 }  // namespace
 
-Layout layout_of(const worlds::Film& film, int estimators) {
+Layout layout_of(const worlds::Film& film, const std::vector<bool>& keeps_matrix) {
   const auto width = static_cast<float>(film.width);
   const auto height = static_cast<float>(film.height);
   Layout layout;
@@ -50,12 +52,12 @@ Layout layout_of(const worlds::Film& film, int estimators) {
     layout.caption = Frame{0.0F, 0.0F, width, top};
   }
   if (film.layers.times || film.layers.pose_error || film.layers.legend ||
-      (film.layers.matrix && estimators > 0)) {
+      (film.layers.matrix && std::ranges::find(keeps_matrix, true) != keeps_matrix.end())) {
     bottom -= std::round(panel_height * layout.scale);
     layout.panel = Frame{0.0F, bottom, width, height - bottom};
-    divide_panel(layout, film.layers, estimators);
+    divide_panel(layout, film.layers, keeps_matrix);
   }
-  const int views = std::max(1, estimators);
+  const int views = std::max(1, static_cast<int>(keeps_matrix.size()));
   for (int i = 0; i < views; ++i) {
     const float left = std::round(width * static_cast<float>(i) / static_cast<float>(views));
     const float right = std::round(width * static_cast<float>(i + 1) / static_cast<float>(views));

@@ -9,6 +9,13 @@ namespace {
 
 constexpr std::size_t most_cells = 128;  // [-] along an edge: about one for each pixel
 
+std::array<std::uint8_t, 3> shade(float dark) {
+  const auto channel = [&](float full) {
+    return static_cast<std::uint8_t>(std::lround(255.0F * (1.0F - dark * (1.0F - full))));
+  };
+  return {channel(0.06F), channel(0.10F), channel(0.16F)};
+}
+
 }  // namespace
 
 void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
@@ -37,10 +44,20 @@ void MatrixPicture::read(const seif::Estimator& filter, const PointIndex& map) {
   fill_ = static_cast<double>(blocks) / (static_cast<double>(rows) * static_cast<double>(rows));
 }
 
-/// Strengths differ by orders of magnitude, so the scale is a fourth root. A block that is not zero is never
-/// white, because it matters which blocks are zero.
-float MatrixPicture::darkness(float strength) {
-  return strength > 0.0F ? 0.12F + 0.88F * std::sqrt(std::sqrt(strength)) : 0.0F;
+/// A block that is not zero is never white, because it matters which blocks are zero. Strengths of
+/// information differ by orders of magnitude, so their scale is a fourth root. Correlations crowd below 1, so
+/// their scale is the logarithm of what they lack: each further nine is a quarter darker.
+float MatrixPicture::darkness(seif::BeliefMatrix matrix, float strength) {
+  constexpr float blackest = 0.9999F;  // [-] correlation
+  if (strength <= 0.0F) return 0.0F;
+  if (matrix == seif::BeliefMatrix::information) return 0.12F + 0.88F * std::sqrt(std::sqrt(strength));
+  const float share = std::log(1.0F - std::min(strength, blackest)) / std::log(1.0F - blackest);
+  return 0.06F + 0.94F * share;
+}
+
+std::array<float, 3> MatrixPicture::ticks(seif::BeliefMatrix matrix) {
+  if (matrix == seif::BeliefMatrix::information) return {0.01F, 0.1F, 1.0F};
+  return {0.9F, 0.99F, 0.999F};
 }
 
 render::Raster MatrixPicture::raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const {
@@ -51,9 +68,23 @@ render::Raster MatrixPicture::raster(const Eigen::Vector2f& min, const Eigen::Ve
   raster.rows = size_;
   raster.rgba.reserve(4 * cells_.size());
   for (const float strength : cells_) {
-    const float dark = darkness(strength);
-    for (const float full : {0.06F, 0.10F, 0.16F})
-      raster.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0F * (1.0F - dark * (1.0F - full)))));
+    const float dark = darkness(matrix_, strength);
+    for (const std::uint8_t channel : shade(dark)) raster.rgba.push_back(channel);
+    raster.rgba.push_back(255);
+  }
+  return raster;
+}
+
+render::Raster MatrixPicture::scale(const Eigen::Vector2f& min, const Eigen::Vector2f& max) {
+  constexpr int steps = 64;
+  render::Raster raster;
+  raster.min = min;
+  raster.max = max;
+  raster.columns = steps;
+  raster.rows = 1;
+  for (int i = 0; i < steps; ++i) {
+    for (const std::uint8_t channel : shade(static_cast<float>(i) / (steps - 1)))
+      raster.rgba.push_back(channel);
     raster.rgba.push_back(255);
   }
   return raster;

@@ -1,6 +1,7 @@
 // A picture of the matrix that a filter keeps: a dark cell is a strong link between robot or landmarks.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -26,10 +27,14 @@ class MatrixPicture {
 
   int size() const { return size_; }                          // [-] cells along an edge
   const std::vector<float>& cells() const { return cells_; }  // (size x size) strengths [-]
-  /// How dark a cell of this strength is, in [0, 1]. [-]
-  static float darkness(float strength);
+  /// How dark a cell of this strength is in a picture of such a matrix, in [0, 1]. [-]
+  static float darkness(seif::BeliefMatrix matrix, float strength);
+  /// Strengths that explain the scale, ascending. [-]
+  static std::array<float, 3> ticks(seif::BeliefMatrix matrix);
 
   render::Raster raster(const Eigen::Vector2f& min, const Eigen::Vector2f& max) const;
+  /// A strip from white to black, whose place from left to right is the darkness.
+  static render::Raster scale(const Eigen::Vector2f& min, const Eigen::Vector2f& max);
 
  private:
   seif::BeliefMatrix matrix_ = seif::BeliefMatrix::none;

@@ -44,7 +44,8 @@ render::Solid part(const Isometry3d& T_world_robot, const Isometry3d& T_robot_pa
 
 }  // namespace
 
-Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription& log)
+Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription& log,
+             const std::optional<Area>& path)
     : robot_(world.robot),
       ground_size_(world.ground_size),
       reach_(knows_world ? world.landmark_sensor.max_range : unknown_reach) {
@@ -64,6 +65,11 @@ Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription&
   }
   const Vector2d margin = Vector2d::Constant(0.5);
   subject_ = {subject->min - margin, subject->max + margin};
+  if (path) {  // what lies out of reach of the path is not seen
+    const Vector2d reach = Vector2d::Constant(reach_);
+    subject_.min = subject_.min.cwiseMax(path->min - reach).cwiseMin(path->min - margin);
+    subject_.max = subject_.max.cwiseMin(path->max + reach).cwiseMax(path->max + margin);
+  }
   if ((subject_.max - subject_.min).maxCoeff() < reach_) {  // too small an area for an overview
     const Vector2d middle = 0.5 * (subject_.min + subject_.max);
     subject_ = {middle - Vector2d::Constant(reach_), middle + Vector2d::Constant(reach_)};
@@ -121,15 +127,20 @@ void Stage::append_surroundings(const Frustum& frustum, const Area& area, render
   }
 }
 
-void Stage::append_robot(const TruePose& pose, render::Things& things) const {
+double Stage::robot_length() const {
+  const worlds::Footprint footprint = worlds::footprint(robot_);
+  return footprint.max.x() - footprint.min.x();
+}
+
+void Stage::append_robot(const TruePose& pose, double size, render::Things& things) const {
   const double r = robot_.wheel_radius;
   const double width = worlds::wheel_width(robot_);
   const worlds::Footprint footprint = worlds::footprint(robot_);
   const Isometry3d T_world_robot = Translation3d(pose.T_world_robot.x, pose.T_world_robot.y, 0.0) *
                                    AngleAxisd(pose.T_world_robot.theta, Vector3d::UnitZ());
-  const auto add = [&](const Isometry3d& T_robot_part, render::Shape shape, const Vector3d& size,
-                       Rgb colour) {
-    things.solids.push_back(part(T_world_robot, T_robot_part, shape, size, colour));
+  const auto add = [&](Isometry3d T_robot_part, render::Shape shape, const Vector3d& extent, Rgb colour) {
+    T_robot_part.translation() *= size;
+    things.solids.push_back(part(T_world_robot, T_robot_part, shape, size * extent, colour));
   };
   // The hull is narrower than the track, so that the wheels are visible.
   const double length = footprint.max.x() - footprint.min.x();

@@ -17,7 +17,9 @@ class Stage {
  public:
   /// `knows_world`: the run came from this world file. Otherwise only the default robot is taken from
   /// `world`, and the rest comes from the log.
-  Stage(const worlds::World& world, bool knows_world, const LogDescription& log);
+  /// `path`: the area of the path while the film lasts; empty if not known. [m]
+  Stage(const worlds::World& world, bool knows_world, const LogDescription& log,
+        const std::optional<Area>& path);
 
   /// What an overview shows in full. [m]
   const Area& subject() const { return subject_; }
@@ -28,7 +30,10 @@ class Stage {
   /// Appends the walls, boxes and landmarks that the camera sees.
   void append_surroundings(const Frustum& frustum, const Area& area, render::Things& things);
 
-  void append_robot(const TruePose& pose, render::Things& things) const;
+  /// Appends the robot, `size` times as large as it is.
+  void append_robot(const TruePose& pose, double size, render::Things& things) const;
+  /// The length of the robot. [m]
+  double robot_length() const;
 
   /// The true position p_world_landmark; empty if it is not known. [m]
   std::optional<Eigen::Vector2d> true_position(seif::LandmarkId id) const { return posts_.position(id); }

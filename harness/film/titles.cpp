@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "harness/film/fitted_text.hpp"
 #include "harness/film/paint.hpp"
@@ -34,56 +34,21 @@ std::string figures_of(const BeliefView& belief) {
   return text;
 }
 
-/// Places the entries of a legend in two columns.
-class Legend {
- public:
-  Legend(const Frame& frame, float scale, Overlay& overlay)
-      : frame_(frame), scale_(scale), overlay_(overlay) {}
-
-  void line(Rgb colour, float width, const std::string& words) {
-    const Vector2f p = next(words);
-    overlay_.push_back(
-        render::Polyline{{p, p + Vector2f(22.0F * scale_, 0.0F)}, width * scale_, paint(colour)});
+/// Appends the scale of a matrix: a strip of its shades, and strengths below it.
+void append_shades(const Frame& frame, float scale, seif::BeliefMatrix matrix, Overlay& overlay) {
+  overlay.push_back(
+      MatrixPicture::scale({frame.x, frame.y}, {frame.x + frame.width, frame.y + frame.height}));
+  const float baseline = frame.y + frame.height + 10.0F * scale;
+  const auto label = [&](float share, render::Align align, std::string words) {
+    append_text(overlay, {frame.x + share * frame.width, baseline}, 10.0F * scale, align,
+                render::Weight::regular, paints::faint_ink, std::move(words));
+  };
+  label(0.0F, render::Align::left, "0");
+  for (const float strength : MatrixPicture::ticks(matrix)) {
+    const float share = MatrixPicture::darkness(matrix, strength);
+    label(share, share < 0.99F ? render::Align::centre : render::Align::right, fmt::format("{:g}", strength));
   }
-
-  void disk(Rgb colour, float radius, const std::string& words) {
-    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
-    overlay_.push_back(render::Polyline{{p, p}, 2.0F * radius * scale_, paint(colour)});
-  }
-
-  void ring(Rgb colour, const std::string& words) {
-    const Vector2f p = next(words) + Vector2f(11.0F * scale_, 0.0F);
-    render::Polyline ellipse{{}, 1.4F * scale_, paint(colour)};
-    constexpr int corners = 32;
-    for (int i = 0; i <= corners; ++i) {
-      const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / corners;
-      ellipse.points.push_back(p + scale_ * Vector2f(9.0F * std::cos(angle), 5.0F * std::sin(angle)));
-    }
-    overlay_.push_back(std::move(ellipse));
-  }
-
- private:
-  static constexpr int rows = 6;
-
-  /// Writes the text of the next entry. Returns the middle of the left edge of its mark.
-  Vector2f next(const std::string& words) {
-    const int column = count_ / rows;
-    const int row = count_ % rows;
-    ++count_;
-    const float pitch = (frame_.height - 20.0F * scale_) / rows;
-    const Vector2f p(frame_.x + 14.0F * scale_ + static_cast<float>(column) * 0.5F * frame_.width,
-                     frame_.y + 10.0F * scale_ + (static_cast<float>(row) + 0.5F) * pitch);
-    append_text(overlay_, p + Vector2f(30.0F * scale_, 4.5F * scale_), 12.5F * scale_, render::Align::left,
-                render::Weight::regular, paints::ink,
-                fitted(words, 12.5F * scale_, render::Weight::regular, 0.5F * frame_.width - 48.0F * scale_));
-    return p;
-  }
-
-  Frame frame_;
-  float scale_;
-  Overlay& overlay_;
-  int count_ = 0;
-};
+}
 
 }  // namespace
 
@@ -130,37 +95,22 @@ void append_view_title(const Frame& frame, float scale, const BeliefView& belief
 }
 
 void append_matrix(const Frame& frame, float scale, const BeliefView& belief, Overlay& overlay) {
-  if (belief.matrix().empty()) return;
-  const bool is_information = belief.matrix().matrix() == seif::BeliefMatrix::information;
   const float left = frame.x + 12.0F * scale;
+  const bool is_information = belief.kind() == seif::BeliefMatrix::information;
+  std::string title = is_information ? "information" : "covariance";
+  if (!belief.matrix().empty()) title += fmt::format(", {:.0f} % filled", 100.0 * belief.matrix().fill());
   append_text(overlay, {left, frame.y + 17.0F * scale}, 11.5F * scale, render::Align::left,
-              render::Weight::bold, belief.colour(),
-              fmt::format("{}, {:.0f} % filled", is_information ? "information" : "covariance",
-                          100.0 * belief.matrix().fill()));
-  const float edge = std::floor(frame.height - 32.0F * scale);
+              render::Weight::bold, belief.colour(), title);
+  const float edge = std::floor(frame.height - 50.0F * scale);
   const Vector2f min(std::round(left), std::round(frame.y + 24.0F * scale));
   const float hair = std::max(1.0F, std::round(scale));
   append_box(overlay, {min.x() - hair, min.y() - hair, edge + 2.0F * hair, edge + 2.0F * hair},
              paint(paints::hairline));
-  overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
-}
-
-void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
-                   const std::vector<BeliefView>& beliefs, bool has_truth, Overlay& overlay) {
-  Legend legend(frame, scale, overlay);
-  if (layers.truth && has_truth) legend.line(palette::truth, 2.0F, "true way");
-  if (layers.odometry) legend.line(palette::odometry, 2.0F, "odometry alone");
-  for (const BeliefView& belief : beliefs) {
-    if (layers.estimate) legend.line(belief.colour(), 2.4F, belief.name());
-  }
-  if (layers.ellipses && !beliefs.empty()) legend.ring(beliefs.front().colour(), "2σ: where it may be");
-  if (layers.errors && has_truth) legend.line(palette::purple, 2.0F, "error");
-  if (layers.rays) legend.line(palette::sky_blue, 2.0F, "seen");
-  if (layers.rays && has_truth) legend.line(paints::hidden_ray, 2.0F, "hidden");
-  if (layers.landmarks && !beliefs.empty())
-    legend.disk(beliefs.front().colour(), 2.8F, "landmark, estimated");
-  if (layers.active) legend.disk(palette::orange, 5.0F, "active: tied to robot");
-  if (layers.links) legend.line(paints::faint_ink, 1.2F, "link of information");
+  if (belief.matrix().empty())
+    append_box(overlay, {min.x(), min.y(), edge, edge}, paint(paints::paper));
+  else
+    overlay.push_back(belief.matrix().raster(min, min + Vector2f::Constant(edge)));
+  append_shades({min.x(), min.y() + edge + 5.0F * scale, edge, 5.0F * scale}, scale, belief.kind(), overlay);
 }
 
 void append_panel(const Layout& layout, Overlay& overlay) {

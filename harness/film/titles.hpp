@@ -1,4 +1,4 @@
-// The text over the views of a frame, and the panel: caption, names, legend, matrices.
+// The text over the views of a frame, and the panel: caption, names, matrices.
 #pragma once
 
 #include <string>
@@ -25,11 +25,6 @@ void append_view_title(const Frame& frame, float scale, const BeliefView& belief
 
 /// Appends the picture of an estimator's matrix.
 void append_matrix(const Frame& frame, float scale, const BeliefView& belief,
-                   std::vector<render::OverlayItem>& overlay);
-
-/// Appends the legend, which explains the marks.
-void append_legend(const Frame& frame, float scale, const worlds::FilmLayers& layers,
-                   const std::vector<BeliefView>& beliefs, bool has_truth,
                    std::vector<render::OverlayItem>& overlay);
 
 /// Appends the panel's white background, with thin lines between the parts.

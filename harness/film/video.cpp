@@ -14,6 +14,7 @@
 
 #include "harness/figures/piped_program.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/recording/run_folder.hpp"
 
 namespace harness {
 
@@ -31,33 +32,70 @@ constexpr std::string_view h264 =
 constexpr std::string_view vp9 =
     "-c:v libvpx-vp9 -deadline realtime -cpu-used 8 -row-mt 1 -crf 30 -b:v 0 -threads 2 -f webm";
 
-/// Makes a palette for each frame, so that ffmpeg need not keep the film in memory. No dithering: its pattern
-/// changes from frame to frame, and plain areas flicker.
-std::string gif(int fps) {
-  constexpr int highest_rate = 50;  // [1/s] GIF counts in 1/100 s; players slow down frames of one tick
-  return fmt::format(
-      "-filter_complex {}split[frames][same];[same]palettegen=stats_mode=single[palettes];"
-      "[frames][palettes]paletteuse=new=1:dither=none -loop 0 -f gif",
-      fps > highest_rate ? fmt::format("fps={},", highest_rate) : "");
-}
+// What a GIF is made of once all frames are known: the frames without loss, with exact times.
+constexpr std::string_view lossless = "-c:v libx264rgb -preset ultrafast -qp 0 -threads 2 -f nut";
 
-std::string codec(VideoFormat video, int fps) {
-  if (video == VideoFormat::gif) return gif(fps);
+std::string codec(VideoFormat video) {
+  if (video == VideoFormat::gif) return std::string(lossless);
   return fmt::format("{} {}", bt709, video == VideoFormat::mp4 ? h264 : vp9);
 }
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// The name of a file for ffmpeg; the prefix allows names with a leading dash or a colon.
+std::string named(const std::filesystem::path& file) { return "file:" + file.string(); }
 
 /// The ffmpeg command with its arguments, for frames as rows of bytes (red, green, blue). The same frames
 /// give the same bytes.
 std::vector<std::string> command(const std::filesystem::path& file, VideoFormat video,
                                  const FrameFormat& format) {
-  std::istringstream words(
+  std::vector<std::string> arguments = words_of(
       fmt::format("ffmpeg -loglevel level+error -nostdin -y "
                   "-f rawvideo -pixel_format rgb24 -video_size {}x{} -framerate {} -i pipe:0 {} -bitexact "
                   "-map_metadata -1",
-                  format.width, format.height, format.fps, codec(video, format.fps)));
-  std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
-  arguments.push_back("file:" + file.string());  // the prefix allows names with a leading dash or a colon
+                  format.width, format.height, format.fps, codec(video)));
+  arguments.push_back(named(file));
   return arguments;
+}
+
+/// The command that finds one palette for all frames of a GIF.
+std::vector<std::string> palette_command(const std::filesystem::path& frames,
+                                         const std::filesystem::path& palette) {
+  return {"ffmpeg",      "-loglevel",   "level+error",
+          "-nostdin",    "-y",          "-i",
+          named(frames), "-vf",         "palettegen=max_colors=128:stats_mode=full",
+          "-bitexact",   named(palette)};
+}
+
+/// The command that writes a GIF with this palette. No dithering: its pattern changes from frame to frame, and
+/// plain areas flicker.
+std::vector<std::string> gif_command(const std::filesystem::path& frames,
+                                     const std::filesystem::path& palette, int fps,
+                                     const std::filesystem::path& file) {
+  constexpr int highest_rate = 50;  // [1/s] GIF counts in 1/100 s; players slow down frames of one tick
+  const std::string rate = fps > highest_rate ? fmt::format("fps={}", highest_rate) : "null";
+  return {"ffmpeg",
+          "-loglevel",
+          "level+error",
+          "-nostdin",
+          "-y",
+          "-i",
+          named(frames),
+          "-i",
+          named(palette),
+          "-filter_complex",
+          fmt::format("[0]{}[frames];[frames][1]paletteuse=dither=none:diff_mode=rectangle", rate),
+          "-loop",
+          "0",
+          "-f",
+          "gif",
+          "-bitexact",
+          "-map_metadata",
+          "-1",
+          named(file)};
 }
 
 PipedProgram start(const std::vector<std::string>& arguments) try {
@@ -87,16 +125,17 @@ std::string without_levels(std::string complaint) {
 class VideoSink : public FrameSink {
  public:
   VideoSink(const std::filesystem::path& file, VideoFormat video, const FrameFormat& format)
-      : file_(file), format_(format), encoder_(start(command(fresh(), video, format))) {}
+      : file_(file), video_(video), format_(format), encoder_(start(command(fresh(), video, format))) {}
 
   void write(const render::Image& frame) override {
     if (frame.width != format_.width || frame.height != format_.height)
       throw std::invalid_argument("a frame of another size");
-    if (!encoder_.send(frame.rgb)) fail();
+    if (!encoder_.send(frame.rgb)) fail(encoder_);
   }
 
   void finish() override {
-    if (!encoder_.finish() || tells_of_an_error(encoder_.complaint())) fail();
+    wait_for(encoder_);
+    if (video_ == VideoFormat::gif) make_gif();
     rename_output(unfinished(), file_, Existing::replace);
   }
 
@@ -110,12 +149,31 @@ class VideoSink : public FrameSink {
 
   /// The path of the film until it is complete.
   std::filesystem::path unfinished() const { return file_.string() + ".part"; }
+  /// The path of a GIF while it is made from the unfinished film.
+  std::filesystem::path second_pass() const { return file_.string() + ".gif.part"; }
 
-  [[noreturn]] void fail() {
-    static_cast<void>(encoder_.finish());  // wait until ffmpeg has written all its messages
+  /// Replaces the frames without loss by a GIF of one palette. ffmpeg reads the frames twice from the disk, so
+  /// that memory stays bounded.
+  void make_gif() {
+    const TemporaryFolder folder;
+    const std::filesystem::path palette = folder / "palette.png";
+    PipedProgram first = start(palette_command(unfinished(), palette));
+    wait_for(first);
+    PipedProgram second = start(gif_command(unfinished(), palette, format_.fps, second_pass()));
+    wait_for(second);
+    std::filesystem::rename(second_pass(), unfinished());
+  }
+
+  void wait_for(PipedProgram& program) {
+    if (!program.finish() || tells_of_an_error(program.complaint())) fail(program);
+  }
+
+  [[noreturn]] void fail(PipedProgram& program) {
+    static_cast<void>(program.finish());  // wait until ffmpeg has written all its messages
     std::error_code ignored;
-    std::filesystem::remove(unfinished(), ignored);
-    std::string reason = without_levels(encoder_.complaint());
+    for (const std::filesystem::path& part : {unfinished(), second_pass()})
+      std::filesystem::remove(part, ignored);
+    std::string reason = without_levels(program.complaint());
     reason.erase(std::find_if(reason.rbegin(), reason.rend(), [](char c) { return c != '\n'; }).base(),
                  reason.end());
     throw std::runtime_error(fmt::format("cannot write {}: {}", file_.string(),
@@ -123,6 +181,7 @@ class VideoSink : public FrameSink {
   }
 
   std::filesystem::path file_;
+  VideoFormat video_;
   FrameFormat format_;
   PipedProgram encoder_;
 };

@@ -7,6 +7,7 @@
 
 #include "harness/files/base64.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/film/poster.hpp"
 #include "harness/report/page_files.hpp"
 #include "harness/terminal/version.hpp"
 
@@ -111,6 +112,17 @@ std::string url_of(const std::filesystem::path& path) {
   return url;
 }
 
+std::string data_url(const std::string& type, const std::string& bytes) {
+  return "data:" + type + ";base64," +
+         base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
+/// The picture of a video that has not been started; its first frame would show an empty map.
+std::string poster_html(const std::filesystem::path& film) {
+  const std::string bytes = poster_of(film);
+  return bytes.empty() ? std::string() : fmt::format(" poster=\"{}\"", data_url("image/jpeg", bytes));
+}
+
 std::string film_html(const std::optional<std::filesystem::path>& film, const std::filesystem::path& file) {
   if (!film) return {};
   const std::filesystem::path extension = film->extension();
@@ -120,15 +132,12 @@ std::string film_html(const std::optional<std::filesystem::path>& film, const st
       std::filesystem::absolute(*film).lexically_relative(std::filesystem::absolute(file).parent_path()));
   const std::string link =
       fmt::format("<p><a href=\"{}\">{}</a></p>\n", source, escaped(film->filename().string()));
-  if (std::filesystem::file_size(*film) < largest_film) {
-    const std::string bytes = read_whole_file(*film);
-    source = "data:" + type + ";base64," +
-             base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  }
-  const char* form = is_gif ? "<img class=\"film\" src=\"{}\" alt=\"The film of the run\">"
-                            : "<video controls playsinline preload=\"metadata\" src=\"{}\"></video>";
-  return "<section>\n<h2>Film</h2>\n" + fmt::format(fmt::runtime(form), source) + '\n' + link +
-         "</section>\n";
+  if (std::filesystem::file_size(*film) < largest_film) source = data_url(type, read_whole_file(*film));
+  const std::string element =
+      is_gif ? fmt::format("<img class=\"film\" src=\"{}\" alt=\"The film of the run\">", source)
+             : fmt::format("<video controls playsinline preload=\"metadata\"{} src=\"{}\"></video>",
+                           poster_html(*film), source);
+  return "<section>\n<h2>Film</h2>\n" + element + '\n' + link + "</section>\n";
 }
 
 std::string image_html(const PageImage& image) {

@@ -103,12 +103,15 @@ MatrixFigure matrix_of(const LiveEstimator& estimator) {
   const bool is_covariance = picture.matrix() == seif::BeliefMatrix::covariance;
   MatrixFigure figure{.id = "matrix-" + file_name_of(estimator.name),
                       .title = estimator.name + (is_covariance ? ", covariance" : ", information")};
-  figure.caption = fmt::format("{:.1f} % of {} x {} blocks are not zero.", 100.0 * picture.fill(),
-                               map.size() + 1, map.size() + 1);
+  figure.caption = fmt::format(
+      "{:.1f} % of {} x {} blocks are not zero. {}", 100.0 * picture.fill(), map.size() + 1, map.size() + 1,
+      is_covariance
+          ? "A correlation of 0.9 is about a quarter dark, 0.99 half, 0.999 three quarters, 0.9999 black."
+          : "How dark a block is grows with the fourth root of its strength.");
   figure.size = static_cast<std::size_t>(picture.size());
   for (const float strength : picture.cells())
-    figure.cells.push_back(
-        static_cast<std::uint8_t>(std::lround(255.0F * std::min(1.0F, MatrixPicture::darkness(strength)))));
+    figure.cells.push_back(static_cast<std::uint8_t>(
+        std::lround(255.0F * std::min(1.0F, MatrixPicture::darkness(picture.matrix(), strength)))));
   return figure;
 }
 

@@ -69,7 +69,10 @@ void take_place(const fs::path& again, const fs::path& run) {
   for (const fs::directory_entry& entry : fs::directory_iterator(again))
     names.push_back(entry.path().filename());
   std::ranges::partition(names, [](const fs::path& name) { return name != "summary.json"; });
-  for (const fs::path& name : names) fs::rename(again / name, run / name);
+  for (const fs::path& name : names) {
+    fs::rename(again / name, run / name);
+    fs::remove(unfinished_name(run / name));  // from a kill while the file was written
+  }
   fs::remove(run / unfinished_mark);
 }
 

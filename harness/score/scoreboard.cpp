@@ -190,10 +190,9 @@ std::string scoreboard(const Summary& summary) {
 }
 
 std::string scoreboard_notes(const Summary& summary) {
-  std::string text = note_lines(summary) + log_line(summary) + left_out_line(summary) +
-                     truth_lines(summary) + matching_lines(summary) + gate_line(summary) +
-                     association_lines(summary) +
-          divergence_lines(summary);
+  std::string text = note_lines(summary) + log_line(summary) + left_out_line(summary) + truth_lines(summary) +
+                     matching_lines(summary) + gate_line(summary) + association_lines(summary) +
+                     divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

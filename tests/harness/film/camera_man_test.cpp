@@ -41,6 +41,31 @@ TEST(CameraMan, ShowsTheWholeSubjectInAnOverviewAndFillsItsViewWithIt) {
   }
 }
 
+TEST(CameraMan, FillsTheHeightOfItsViewWithAWideSubjectToo) {
+  CameraBrief wide = brief(worlds::FilmCamera::overview);
+  wide.subject = {{-40.0, -25.0}, {40.0, 25.0}};
+  const Frustum frustum(CameraMan(wide).camera({}, 0.0), aspect);
+  const double height = frustum.on_image({0.0, 25.0, 0.0}).y() - frustum.on_image({0.0, -25.0, 0.0}).y();
+  EXPECT_GT(height, 1.25);  // 1.06 from the side
+  EXPECT_LT(height, 1.7);
+}
+
+TEST(CameraMan, StaysAtItsPlaceInAnOverview) {
+  CameraMan man(brief(worlds::FilmCamera::overview));
+  EXPECT_EQ(man.camera({}, 0.0).eye, man.camera({9.0, 9.0, 1.0}, 0.1).eye);
+}
+
+TEST(Frustum, KnowsTheLengthOfAMetre) {
+  render::Camera camera;
+  camera.eye = {0.0, 0.0, 10.0};
+  camera.target = {0.0, 0.0, 0.0};
+  camera.up = Vector3d::UnitY();
+  camera.field_of_view = 2.0 * std::atan(0.5);  // 10 m at the ground
+  EXPECT_NEAR(Frustum(camera, 1.0).image_heights_per_metre({3.0, 0.0, 0.0}), 0.1, 1e-12);
+  camera.height = 20.0;
+  EXPECT_NEAR(Frustum(camera, 1.0).image_heights_per_metre({3.0, 0.0, 0.0}), 0.05, 1e-12);
+}
+
 TEST(CameraMan, KeepsTheRobotInViewAsItDrives) {
   for (const worlds::FilmCamera kind :
        {worlds::FilmCamera::chase, worlds::FilmCamera::orbit, worlds::FilmCamera::top}) {

@@ -65,6 +65,18 @@ TEST_F(FilmCommand, DrawsAMomentAsAPicture) {
   EXPECT_EQ(picture.height, 360);
 }
 
+TEST_F(FilmCommand, NamesTheNumberedPicturesThatItWrites) {
+  run();
+  const Called several = call(folder_, "film run --to 2 --speed 1 --out p/f.png");
+  EXPECT_EQ(several.exit_code, 0) << several.errors;
+  EXPECT_TRUE(several.output.starts_with("Written to p/f_00000.png ... p/f_00010.png: 2.2 s, 11 frames"))
+      << several.output;
+  const Called one = call(folder_, "film run --to 0 --out one.PNG");
+  EXPECT_TRUE(one.output.starts_with("Written to one_00000.PNG: ")) << one.output;
+  for (const char* file : {"p/f_00000.png", "p/f_00010.png", "one_00000.PNG"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / file)) << file;
+}
+
 TEST_F(FilmCommand, DrawsTheSamePixelsAgain) {
   run();
   call(folder_, "film run --at 7 -o a.png");
@@ -125,18 +137,23 @@ TEST_P(BadFilmCalls, EndWithCodeTwoAndAReason) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "run" / "film.mp4"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Films, BadFilmCalls,
-                         testing::Values(BadCall{"film nowhere", "nowhere"},
-                                         BadCall{"film run --at 11", "the run takes 10 s"},
-                                         BadCall{"film run --from 5 --to 4", "nothing to film"},
-                                         BadCall{"film run --camera drone", "drone"},
-                                         BadCall{"film run --size 321x180", "multiple of 2"},
-                                         BadCall{"film run --estimators sief", "seif"},
-                                         BadCall{"film run --hide raysss", "did you mean 'rays'"},
-                                         BadCall{"film run -o film.avi", ".mp4"},
-                                         BadCall{"film run --set seed=4", "its own section"},
-                                         BadCall{"film run --fps 0", "fps"},
-                                         BadCall{"film run --speed -1", "speed"}));
+INSTANTIATE_TEST_SUITE_P(
+    Films, BadFilmCalls,
+    testing::Values(
+        BadCall{"film nowhere", "nowhere"}, BadCall{"film run --at 11", "the run takes 10 s"},
+        BadCall{"film run --from 5 --to 4", "nothing to film"},
+        BadCall{"film run --at nan", "--at: expected a time"},
+        BadCall{"film run --from nan", "--from: expected a time"},
+        BadCall{"film run --to nan", "--to: expected a time"},
+        BadCall{"film run --at inf", "--at: expected a time"},
+        BadCall{"film run --to inf", "--to: expected a time"},
+        BadCall{"film run --from -3", "such as 12.5, not '-3'"}, BadCall{"film run --at abc", "--at"},
+        BadCall{"film run --speed 1e-30", "choose a higher speed"},
+        BadCall{"film run --speed nan", "finite number"}, BadCall{"film run --camera drone", "drone"},
+        BadCall{"film run --size 321x180", "multiple of 2"}, BadCall{"film run --estimators sief", "seif"},
+        BadCall{"film run --hide raysss", "did you mean 'rays'"}, BadCall{"film run -o film.avi", ".mp4"},
+        BadCall{"film run --set seed=4", "its own section"}, BadCall{"film run --fps 0", "fps"},
+        BadCall{"film run --speed -1", "speed"}));
 
 }  // namespace
 }  // namespace harness

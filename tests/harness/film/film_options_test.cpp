@@ -84,6 +84,11 @@ TEST(FilmOptions, KeepWhatIsNoPartOfAWorld) {
   EXPECT_EQ(options.at, 3.0);
 }
 
+TEST(FilmOptions, NameTheFileAsOtherCommandsDo) {
+  EXPECT_EQ(parsed("my_run --out a.mp4").out, "a.mp4");
+  EXPECT_EQ(parsed("my_run -o a.mp4").out, "a.mp4");
+}
+
 TEST(FilmOptions, HideBeforeTheyShow) {
   EXPECT_EQ(layers_of("--hide all --show truth,ellipses my_run"), "truth ellipses ");
   EXPECT_EQ(layers_of("--show ellipses --show truth --hide all my_run"), "truth ellipses ");

@@ -45,7 +45,7 @@ class BrokenSink final : public FrameSink {
 };
 
 /// Believes in three landmarks, whatever it sees. The first and the last have a link.
-class Dogmatist final : public seif::Estimator {
+class Dogmatist : public seif::Estimator {
  public:
   explicit Dogmatist(const seif::EstimatorSetup& setup) : pose_(setup.start.mean) {}
 
@@ -78,6 +78,19 @@ class Dogmatist final : public seif::Estimator {
   seif::Pose2 pose_;
 };
 
+/// Has three links of landmarks, the last of them weak. Only the first and the last landmark are active.
+class Linked final : public Dogmatist {
+ public:
+  using Dogmatist::Dogmatist;
+  void couplings(seif::LandmarkId of, std::vector<seif::Coupling>& out) const override {
+    out.clear();
+    if (of == seif::no_landmark) out = {{0, 0.5}, {2, 0.5}};
+    if (of == 0) out = {{1, 0.2}, {2, 0.2}};
+    if (of == 1) out = {{0, 0.2}, {2, 0.02}};
+    if (of == 2) out = {{0, 0.2}, {1, 0.02}};
+  }
+};
+
 seif::Registry registry() {
   seif::Registry registry = test::test_registry();
   seif::EstimatorType type;
@@ -85,16 +98,23 @@ seif::Registry registry() {
   type.make = [](const seif::EstimatorSetup& setup, const seif::Options&) {
     return std::make_unique<Dogmatist>(setup);
   };
+  registry.add(type);
+  type.name = "linked";
+  type.make = [](const seif::EstimatorSetup& setup, const seif::Options&) {
+    return std::make_unique<Linked>(setup);
+  };
   registry.add(std::move(type));
   return registry;
 }
 
-worlds::EstimatorChoice dogmatist() {
+worlds::EstimatorChoice of_type(const std::string& type) {
   worlds::EstimatorChoice choice;
-  choice.name = "dogmatist";
-  choice.type = choice.name;
+  choice.name = type;
+  choice.type = type;
   return choice;
 }
+
+worlds::EstimatorChoice dogmatist() { return of_type("dogmatist"); }
 
 /// A world seen from straight above by a camera at the origin, with only the layers that the test asks for.
 worlds::World bare_world(double duration) {
@@ -203,6 +223,25 @@ TEST_F(FilmTest, ShowsALinkBetweenTheLandmarksThatHaveIt) {
   }
 }
 
+TEST_F(FilmTest, FadesLinksThatAreWeakOrOld) {
+  worlds::World world = bare_world(0.4);
+  world.film.layers.links = true;
+  world.estimators = {of_type("linked")};
+  const render::Image last = film_live(world, folder_ / "run").back();
+  const Rgb8 ground = ground_of(world, last);
+  const auto darkness = [&](std::size_t a, std::size_t b) {
+    const auto& map = Dogmatist::belief();
+    return contrast(last, pixel_of(world, 0.5 * (map[a].mean + map[b].mean)), ground);
+  };
+  const int fresh = darkness(0, 2);
+  const int old = darkness(0, 1);
+  const int old_and_weak = darkness(1, 2);
+  EXPECT_GT(fresh, 45);
+  EXPECT_LT(old, fresh - 25);
+  EXPECT_GT(old, 15);
+  EXPECT_LT(old_and_weak, 8);
+}
+
 TEST_F(FilmTest, DrawsEllipsesOfTwoStandardDeviations) {
   worlds::World world = bare_world(0.4);
   world.film.layers.ellipses = true;
@@ -244,10 +283,12 @@ TEST_F(FilmTest, ShowsEachEstimatorInAViewOfItsOwn) {
 TEST_F(FilmTest, ShowsWallsAndGroundOfAnotherFriction) {
   worlds::World world = bare_world(0.4);
   world.walls = {{.points = {{-6.0, -5.0}, {-6.0, 5.0}}}};
+  world.boxes = {{.centre = {{-5.0, -4.0}, 0.0}, .size = {1.0, 1.0}, .height = 0.5}};
   world.physics.patches = {{.min = {4.0, 2.0}, .max = {6.0, 4.0}}};
   const std::vector<render::Image> frames = film_live(world, folder_ / "run");
   const Rgb8 ground = colour_at(frames.back(), 5, 5);
-  EXPECT_GT(contrast(frames.back(), pixel_of(world, {-6.0, 0.0}), ground), 8);
+  EXPECT_GT(contrast(frames.back(), pixel_of(world, {-6.0, 0.0}), ground), 60) << "a wall's top, from above";
+  EXPECT_GT(contrast(frames.back(), pixel_of(world, {-5.0, -4.0}), ground), 40) << "a box's top";
   EXPECT_GT(contrast(frames.back(), pixel_of(world, {5.0, 3.0}), ground), 8);
   EXPECT_LT(contrast(frames.back(), pixel_of(world, {5.0, -3.0}), ground), 8);
 }
@@ -271,6 +312,47 @@ TEST_F(FilmTest, MovesTheRobotBetweenTheMeasurements) {
   const std::vector<render::Image> frames = film_live(world, folder_ / "run", 2.0);
   ASSERT_EQ(frames.size(), 61U);
   for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_NE(frames[i].rgb, frames[i - 1].rgb) << i;
+}
+
+TEST_F(FilmTest, FitsAnOverviewToThePath) {
+  worlds::World world = bare_world(0.4);
+  world.landmark_sensor.max_range = 4.0;
+  world.landmarks.push_back({{200.0, 0.0}, 0.01});  // never seen
+  PreparedRun run = prepare_run(world, registry());
+  const Stage whole(world, true, *run.log, {});
+  const Stage fitted(world, true, *run.log, Area{{-1.0, -2.0}, {10.0, 2.0}});
+  EXPECT_EQ(whole.subject().max.x(), 200.5);
+  EXPECT_EQ(fitted.subject().max.x(), 14.0);
+  EXPECT_EQ(fitted.subject().min, whole.subject().min) << "and not more than the world";
+  const Stage outside(world, true, *run.log, Area{{-50.0, 0.0}, {10.0, 0.0}});
+  EXPECT_EQ(outside.subject().min.x(), -50.5) << "but the whole path";
+}
+
+TEST_F(FilmTest, KnowsThePathThatIsToCome) {
+  test::write_file(
+      folder_ / "truth.csv",
+      "t,x,y,theta,left_wheel,right_wheel\n0,0,9,0,0,0\n1,1,0,0,0,0\n2,2,-1,0,0,0\n3,3,5,0,0,0\n");
+  const std::optional<Area> all = path_area(folder_.path(), 0.0, 9.0);
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->min, Vector2d(0.0, -1.0));
+  EXPECT_EQ(all->max, Vector2d(3.0, 9.0));
+  const std::optional<Area> part = path_area(folder_.path(), 1.5, 2.5);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->min, Vector2d(1.0, -1.0));
+  EXPECT_EQ(part->max, Vector2d(2.0, 0.0));
+  EXPECT_FALSE(path_area(folder_ / "nowhere", 0.0, 1.0));
+}
+
+TEST_F(FilmTest, DrawsTheRobotLargeEnoughToBeSeen) {
+  worlds::World world = bare_world(0.4);
+  world.film.camera = worlds::FilmCamera::fixed;
+  world.film.eye = {0.0, 0.0, 300.0};
+  world.ground_size = {400.0, 400.0};
+  world.film.target = {0.0, 0.0, 0.0};
+  const render::Image last = film_live(world, folder_ / "run").back();
+  const Rgb8 ground = colour_at(last, 200, 200);
+  for (const int dx : {-3, 0, 3}) EXPECT_GT(contrast(last, {320.0 + dx, 320.0}, ground), 60) << dx;
+  for (const int dx : {-40, 40}) EXPECT_LT(contrast(last, {320.0 + dx, 320.0}, ground), 8) << dx;
 }
 
 TEST_F(FilmTest, IsTheSameLiveAndFromTheFolder) {

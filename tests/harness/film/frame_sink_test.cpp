@@ -277,6 +277,14 @@ TEST(FrameSink, GivesAGifNoMoreFramesThanItsClockHasTime) {
   EXPECT_EQ(values.at("nb_read_frames"), "20");
 }
 
+TEST(FrameSink, GivesAGifOnePaletteForAllFrames) {
+  const TemporaryFolder folder;
+  write_film(folder / "film.gif", 60);
+  constexpr std::uintmax_t palette = 768;  // [byte]
+  EXPECT_LT(std::filesystem::file_size(folder / "film.gif"), 60 * palette);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
 TEST(FrameSink, NumbersPictures) {
   const TemporaryFolder folder;
   write_film(folder / "new" / "deep" / "a.b.png", 11);
@@ -291,6 +299,21 @@ TEST(FrameSink, NumbersPictures) {
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / "new" / "deep"))
     ++files;
   EXPECT_EQ(files, 11U);
+}
+
+TEST(FrameSink, MixesNumberedPicturesWithNoOthers) {
+  const TemporaryFolder folder;
+  const std::filesystem::path film = folder / "a.png";
+  check_frame_sink(film, false, Existing::keep);
+  check_frame_sink(folder / "none" / "a.png", false, Existing::keep);
+  for (const char* other : {"a_1.png", "a_00000x.png", "b_00000.png", "a_00000.jpg", "a.png"})
+    write_file(folder / other, "not one of them");
+  check_frame_sink(film, false, Existing::keep);
+  write_file(folder / "a_00007.png", "one of them");
+  EXPECT_THROW(check_frame_sink(film, false, Existing::keep), BadInput);
+  check_frame_sink(film, false, Existing::replace);
+  std::filesystem::create_directory(folder / "a_123456.png");
+  EXPECT_THROW(check_frame_sink(film, false, Existing::replace), BadInput);
 }
 
 TEST(FrameSink, WritesAStillUnderItsOwnName) {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "harness/files/base64.hpp"
+#include "harness/film/frame_sink.hpp"
+#include "harness/film/poster.hpp"
 #include "harness/fixtures.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/report/run_figures.hpp"
@@ -109,6 +111,17 @@ TEST(Page, HoldsASmallFilmAndLinksALargeOne) {
   const std::string large = to_html(page, folder / "pages/report.html", "");
   EXPECT_TRUE(contains(large, "src=\"../a%20film%20%26%20more.mp4\""));
   EXPECT_LT(large.size(), 100'000U);
+}
+
+TEST(Page, ShowsTheLastFrameOfAVideoUntilItPlays) {
+  const TemporaryFolder folder;
+  Page page;
+  page.film = folder / "film.mp4";
+  const auto sink = make_frame_sink(*page.film, {64, 48, 10}, false);
+  sink->write({64, 48, std::vector<std::uint8_t>(std::size_t{3} * 64 * 48, 99)});
+  sink->finish();
+  const std::string html = to_html(page, folder / "report.html", "");
+  EXPECT_TRUE(contains(html, "poster=\"data:image/jpeg;base64," + encoded(poster_of(*page.film)) + "\""));
 }
 
 TEST(WorldFacts, SayInWordsWhatTheWorldFileSays) {

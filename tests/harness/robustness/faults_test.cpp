@@ -111,6 +111,15 @@ TEST_F(Faults, AKillAtAnyMomentLeavesARunThatIsScoredFilmedAndCompleted) {
   EXPECT_GT(useful, 0);
 }
 
+TEST_F(Faults, ACompletionClearsAwayWhatAKillLeftHalfWritten) {
+  run_whole();
+  fs::copy(folder_ / "whole", folder_ / "cut");
+  fs::remove(folder_ / "cut" / "summary.json");
+  test::write_file(folder_ / "cut" / "summary.json.part", "{");
+  test::write_file(folder_ / "cut" / "unfinished", "");
+  expect_completed("cut");
+}
+
 TEST_F(Faults, ARequestToEndLeavesARunThatIsScoredFilmedAndCompleted) {
   run_whole();
   for (const int number : {SIGINT, SIGTERM}) {
