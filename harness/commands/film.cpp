@@ -34,7 +34,6 @@ std::filesystem::path file_of(const FilmArguments& arguments) {
 
 int film(const FilmArguments& arguments, const seif::Registry& registry) {
   using Clock = std::chrono::steady_clock;
-  check_film_times(arguments.film);
   std::vector<std::string> overrides = arguments.overrides;
   for (const std::string& override : film_overrides(arguments.film)) overrides.push_back(override);
   std::vector<worlds::Problem> problems;

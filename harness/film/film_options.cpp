@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <optional>
 #include <string_view>
 
 #include "harness/files/bad_input.hpp"
@@ -17,6 +15,7 @@ namespace {
 
 constexpr std::string_view all = "all";
 constexpr double fastest = 1e6;  // [-] simulated time over film time
+constexpr double latest = 1e9;   // [s] the longest duration of a run
 
 std::string layer_names() {
   std::string names;
@@ -73,26 +72,14 @@ void add_film_options(CLI::App& command, FilmOptions& options) {
   add("--fps", options.fps, "INT", "Frames for each second of the film")->check(whole_number(1, 240));
   add("--speed", options.speed, "FLOAT", "Simulated over film time; 0: the film takes 40 s at the most")
       ->check(number_between(0.0, fastest));
-  add("--from", options.from, "FLOAT", "Simulated time at which the film begins [s]")
-      ->check(any_finite_number());
-  add("--to", options.to, "FLOAT", "Simulated time at which the film ends [s]")->check(any_finite_number());
-  add("--at", options.at, "FLOAT", "A single picture, at this simulated time [s]")
-      ->check(any_finite_number());
+  const CLI::Validator time = number_between(0.0, latest);
+  add("--from", options.from, "FLOAT", "Time after the start of the run at which the film begins [s]")
+      ->check(time);
+  add("--to", options.to, "FLOAT", "Time after the start of the run at which the film ends [s]")->check(time);
+  add("--at", options.at, "FLOAT", "A single picture, this time after the start of the run [s]")->check(time);
   add_list("--estimators", options.estimators, "Film these, one or two");
   add_list("--show", options.show, "Show these layers, whatever is hidden: " + layer_names());
   add_list("--hide", options.hide, "Hide these layers");
-}
-
-void check_film_times(const FilmOptions& options) {
-  const auto check = [](const char* name, std::optional<double> time) {
-    if (time && !(std::isfinite(*time) && *time >= 0.0))
-      throw BadInput(
-          fmt::format("{}: expected a time in seconds after the start of the run, such as 12.5, not '{:g}'",
-                      name, *time));
-  };
-  check("--from", options.from);
-  check("--to", options.to);
-  check("--at", options.at);
 }
 
 std::vector<std::string> film_overrides(const FilmOptions& options) {

@@ -29,9 +29,6 @@ struct FilmOptions {
 /// Adds the film options to a command. `options` must live until the command line is parsed.
 void add_film_options(CLI::App& command, FilmOptions& options);
 
-/// Throws BadInput if a time is negative, infinite or no number.
-void check_film_times(const FilmOptions& options);
-
 /// The options that world files have too, as overrides `film.key=value`; the reader of the world file checks
 /// them. Throws BadInput if the size is malformed.
 std::vector<std::string> film_overrides(const FilmOptions& options);

@@ -35,7 +35,8 @@ Names options(const TemporaryFolder& folder) {
   Names all;
   for (const std::string& command : commands(folder)) {
     const std::string help = call(folder, "help " + command).output;
-    all.merge(matches(help.substr(0, help.find("Example")), std::regex("\n  (?:-[a-z],)?(--?[a-z-]+)")));
+    for (const char* names : {"\n  (--?[a-z-]+)", "\n  --?[a-z-]+,(--?[a-z-]+)"})
+      all.merge(matches(help.substr(0, help.find("Example")), std::regex(names)));
   }
   return all;
 }

@@ -113,7 +113,9 @@ TEST_F(FilmCommand, EndsWithAFilmThatPlaysWhenInterrupted) {
   pointers.push_back(nullptr);
   pid_t child = 0;
   ASSERT_EQ(posix_spawn(&child, SEIFBED_PROGRAM, nullptr, nullptr, pointers.data(), environ), 0);
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const std::filesystem::path begun = film + ".part";  // the encoder writes once it has a frame
+  while (!std::filesystem::exists(begun) || std::filesystem::file_size(begun) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGINT);
   int status = 0;
   waitpid(child, &status, 0);
@@ -142,15 +144,16 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadCall{"film nowhere", "nowhere"}, BadCall{"film run --at 11", "the run takes 10 s"},
         BadCall{"film run --from 5 --to 4", "nothing to film"},
-        BadCall{"film run --at nan", "--at: expected a time"},
-        BadCall{"film run --from nan", "--from: expected a time"},
-        BadCall{"film run --to nan", "--to: expected a time"},
-        BadCall{"film run --at inf", "--at: expected a time"},
-        BadCall{"film run --to inf", "--to: expected a time"},
-        BadCall{"film run --from -3", "such as 12.5, not '-3'"}, BadCall{"film run --at abc", "--at"},
-        BadCall{"film run --speed 1e-30", "choose a higher speed"},
-        BadCall{"film run --speed nan", "finite number"}, BadCall{"film run --camera drone", "drone"},
-        BadCall{"film run --size 321x180", "multiple of 2"}, BadCall{"film run --estimators sief", "seif"},
+        BadCall{"film run --at nan", "--at: 'nan' is not allowed: it must be a number from 0 to"},
+        BadCall{"film run --from nan", "--from: 'nan' is not allowed: it must be a number from 0 to"},
+        BadCall{"film run --to nan", "--to: 'nan' is not allowed: it must be a number from 0 to"},
+        BadCall{"film run --at inf", "--at: 'inf' is not allowed: it must be a number from 0 to"},
+        BadCall{"film run --to inf", "--to: 'inf' is not allowed: it must be a number from 0 to"},
+        BadCall{"film run --from -3", "it must be a number from 0 to"}, BadCall{"film run --at abc", "--at"},
+        BadCall{"film run --speed 1e-30", "0 or at least 0.001"},
+        BadCall{"film run --speed nan", "a number from 0 to 1000000"},
+        BadCall{"film run --camera drone", "drone"}, BadCall{"film run --size 321x180", "multiple of 2"},
+        BadCall{"film run --estimators sief", "seif"},
         BadCall{"film run --hide raysss", "did you mean 'rays'"}, BadCall{"film run -o film.avi", ".mp4"},
         BadCall{"film run --set seed=4", "its own section"}, BadCall{"film run --fps 0", "fps"},
         BadCall{"film run --speed -1", "speed"}));
