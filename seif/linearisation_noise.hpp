@@ -15,26 +15,29 @@
 
 namespace seif {
 
+/// The variance of the heading within the map, by (L L')^-1, the belief of `window`. [rad^2] That is the variance
+/// in the world without that of the `start` [rad^2]: robot and map turn with the start as one. Half a degree of it
+/// counts all the same. `scratch` (w x 3).
+double heading_variance_in_map(const WindowFactor& window, double start,
+                               Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
+
 /// Mean squares of the second-order terms of range and bearing: (2 x 1) [m^2, rad^2].
 /// With C the covariance of where the robot sees the landmark, along and across its direction, V the variance
-/// of the heading, and o the error of J_x's heading column (first estimates):
+/// of the heading within the map, and o the error of J_x's heading column (first estimates):
 ///   range    3/4 C_aa^2 / d^2 + V (C_aa + o_1^2)
 ///   bearing  (C_ll C_aa + 2 C_la^2) / d^4 + V (C_ll / d^2 + o_2^2)
-/// for a distance d. The belief is (L L')^-1 of `window`, which must be up to date; `scratch` (w x 3).
+/// for a distance d. The belief is that of `window`, which must be up to date; `start` and `scratch` as above.
 Eigen::Vector2d linearisation_noise(const InformationState& state, const ObservationFactor& factor,
-                                    const WindowFactor& window,
+                                    const WindowFactor& window, double start,
                                     Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
 
-/// The same for a landmark of which nothing but the observation is known. `heading_variance` [rad^2]
-Eigen::Vector2d linearisation_noise(const Observation& observation, double heading_variance);
+/// The same for a landmark of which nothing but the observation is known. `V` [rad^2]
+Eigen::Vector2d linearisation_noise(const Observation& observation, double V);
 
 /// A guess of the first function in a few operations. Instead of C it takes the larger of the sensor's noise and
 /// the innovation, and beside V what an innovation has beyond three sigma: then the guess, and with it the work,
 /// does not grow with the uncertainty of the heading along a drive. No bound: an error can be larger than what a
 /// single innovation shows.
-Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double heading_variance);
-
-/// The variance of the heading in (L L')^-1. [rad^2]
-double heading_variance(const WindowFactor& window, Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
+Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, double V);
 
 }  // namespace seif

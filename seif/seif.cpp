@@ -23,7 +23,7 @@ constexpr double least_curvature = 0.1;
 }  // namespace
 
 Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
-    : InformationFilter(setup), options_(options) {
+    : InformationFilter(setup), options_(options), start_variance_(setup.start.covariance(2, 2)) {
   make_keeper(setup.start.mean);
   if (keeper_->window_factor() == nullptr) {
     if (options_.gate > 0.0) throw std::invalid_argument("gate needs mean_recovery: tree");
@@ -139,15 +139,16 @@ double Seif::noise_factor() const {
   return is_known ? options_.linearisation_noise * options_.linearisation_noise : 0.0;
 }
 
-/// By the latest solution for the window. [rad^2]
+/// Within the map, by the latest solution for the window. [rad^2]
 double Seif::heading_variance(double t) {
   if (keeper_->window_factor()->size == 0) solve_window(t);
-  return seif::heading_variance(*keeper_->window_factor(), columns_);
+  return heading_variance_in_map(*keeper_->window_factor(), start_variance_, columns_);
 }
 
 /// Given the latest solution for the window. [m^2, rad^2]
 Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
-  return noise_factor() * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
+  return noise_factor() *
+         linearisation_noise(state_, factor, *keeper_->window_factor(), start_variance_, columns_);
 }
 
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each

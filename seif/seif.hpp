@@ -94,6 +94,7 @@ class Seif final : public InformationFilter {
   void sparsify(double t);
 
   SeifOptions options_;
+  double start_variance_;  // [rad^2] of the heading
   std::unique_ptr<MeanKeeper> keeper_;
   std::unique_ptr<LocalBelief> belief_;
   double anchoring_ = 0.0;  // [nat]

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +53,18 @@ struct Check {
     refuse(fmt::format("landmarks.placed.{}", index), std::move(message));
   }
 };
+
+/// Logs allow no larger error of a range.
+void check_range_noise(const Check& check) {
+  constexpr double largest_sd = 1e3;  // [m]
+  const LandmarkSensor& sensor = check.world.landmark_sensor;
+  const double sd = std::hypot(sensor.range_sd, sensor.range_sd_per_m * sensor.max_range);
+  if (!check.sound({"sensors.landmark_sensor"}) || sd <= largest_sd) return;
+  check.refuse("sensors.landmark_sensor",
+               fmt::format("at max_range_m a range has a standard deviation of {:.4g} m; the largest allowed "
+                           "is {:g} m",
+                           sd, largest_sd));
+}
 
 void check_rates(const Check& check) {
   const int step_rate = check.world.physics.step_rate;
@@ -269,6 +282,7 @@ void check_world(const Node& document, const World& world, std::vector<Problem>&
     check.solid_names = names_of_solids(world);
   }
   check_rates(check);
+  check_range_noise(check);
   check_pose_source(check);
   check_speed(check);
   check_start(check);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/stream/covariance_limits.hpp"
 #include "worlds/document.hpp"
 #include "worlds/merge.hpp"
 
@@ -28,9 +29,11 @@ void describe(worlds::Fields& fields, OdometryNoise& noise) {
 }
 
 void describe(worlds::Fields& fields, SensorNoise& noise) {
-  fields.number(sensor_keys[0], noise.range_sd, worlds::more_than(0), "error of a range");
+  fields.number(sensor_keys[0], noise.range_sd, worlds::between(least_sd, largest_observation_sd),
+                "error of a range");
   fields.number(sensor_keys[1], noise.range_sd_per_m, worlds::at_least(0), "error of a range by its length");
-  fields.number(sensor_keys[2], noise.bearing_sd, worlds::more_than(0), "error of a bearing");
+  fields.number(sensor_keys[2], noise.bearing_sd, worlds::between(least_sd, largest_observation_sd),
+                "error of a bearing");
 }
 
 template <std::size_t Count>

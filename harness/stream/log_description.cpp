@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "harness/files/bad_input.hpp"
+#include "harness/stream/covariance_limits.hpp"
 #include "worlds/document.hpp"
 #include "worlds/fields.hpp"
 
@@ -41,8 +41,9 @@ void describe_start(worlds::Fields& fields, LogDescription& log) {
                 "time at which the first odometry increment begins");
   describe_pose(fields, log.start.mean, worlds::Need::required);
   describe_covariance(fields, log.start.covariance);
-  if (fields.sound() && Eigen::LLT<Eigen::Matrix3d>(log.start.covariance).info() != Eigen::Success)
-    fields.problem("cov_xx", "the covariance is not positive definite; a filter cannot start from it");
+  if (!fields.sound()) return;
+  const std::string problem = problem_of_start(log.start.covariance);
+  if (!problem.empty()) fields.problem("cov_xx", problem);
 }
 
 void describe(worlds::Fields& fields, LogDescription& log, std::string& association) {
@@ -51,12 +52,12 @@ void describe(worlds::Fields& fields, LogDescription& log, std::string& associat
   fields.section("sensor_mount", "where the landmark sensor sits on the robot", [&](worlds::Fields& mount) {
     describe_pose(mount, log.T_robot_sensor, worlds::Need::defaulted);
   });
-  fields.number("range_sd_m", log.noise.range_sd, worlds::more_than(0), "error of a range",
-                worlds::Need::required);
+  fields.number("range_sd_m", log.noise.range_sd, worlds::between(least_sd, largest_observation_sd),
+                "error of a range", worlds::Need::required);
   fields.number("range_sd_per_m", log.noise.range_sd_per_m, worlds::at_least(0),
                 "error of a range for each metre");
-  fields.number("bearing_sd_rad", log.noise.bearing_sd, worlds::more_than(0), "error of a bearing",
-                worlds::Need::required);
+  fields.number("bearing_sd_rad", log.noise.bearing_sd, worlds::between(least_sd, largest_observation_sd),
+                "error of a bearing", worlds::Need::required);
   double max_range = 0.0;  // stays 0 if the file does not give it
   fields.number("max_range_m", max_range, worlds::more_than(0),
                 "of the sensor: what is longer is no measurement", worlds::Need::optional);

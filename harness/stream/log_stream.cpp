@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <system_error>
 #include <vector>
+
+#include "harness/stream/covariance_limits.hpp"
 
 namespace harness {
 
@@ -146,6 +148,8 @@ void LogStream::read_odometry_row() {
   odometry_.covariance = read_covariance3(odometry_rows_, 4);
   if (!is_positive_semidefinite(odometry_.covariance))
     odometry_rows_.fail(4, "this covariance has a negative eigenvalue");
+  const std::string problem = problem_of_motion(odometry_.covariance);
+  if (!problem.empty()) odometry_rows_.fail(4, problem);
 }
 
 void LogStream::read_observation_row() {
@@ -230,8 +234,8 @@ seif::Observation LogStream::observation() const {
   observation.bearing = seif::wrap_angle(row.number(bearing_column));
   observation.covariance = row.has_optional() ? read_covariance2(row, first_covariance_column)
                                               : covariance(description_.noise, observation.range);
-  if (Eigen::LLT<Eigen::Matrix2d>(observation.covariance).info() != Eigen::Success)
-    row.fail(first_covariance_column, "this covariance is not positive definite");
+  const std::string problem = problem_of_observation(observation.covariance);
+  if (!problem.empty()) row.fail(first_covariance_column, problem);
   return observation;
 }
 

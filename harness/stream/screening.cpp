@@ -1,8 +1,10 @@
 #include "harness/stream/screening.hpp"
 
-#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <variant>
+
+#include "harness/stream/covariance_limits.hpp"
 
 namespace harness {
 
@@ -26,7 +28,8 @@ bool is_finite(const seif::Odometry& odometry) {
 bool is_in_range(const seif::Odometry& odometry) {
   const seif::Pose2& T = odometry.T_previous_current;
   return std::abs(T.x) <= longest_increment && std::abs(T.y) <= longest_increment &&
-         (odometry.covariance.diagonal().array() >= 0.0).all();
+         (odometry.covariance.diagonal().array() >= 0.0).all() &&
+         problem_of_motion(odometry.covariance).empty();
 }
 
 bool is_finite(const seif::Observation& observation) {
@@ -36,8 +39,9 @@ bool is_finite(const seif::Observation& observation) {
 
 bool is_in_range(const seif::Observation& observation, double longest) {
   const Eigen::Matrix2d& Q = observation.covariance;
-  return observation.range >= 0.0 && observation.range <= longest + most_noise * std::sqrt(Q(0, 0)) &&
-         Q(0, 0) > 0.0 && Q.determinant() > 0.0;
+  return observation.range >= 0.0 &&
+         observation.range <= longest + most_noise * std::sqrt(std::max(0.0, Q(0, 0))) &&
+         problem_of_observation(Q).empty();
 }
 
 }  // namespace

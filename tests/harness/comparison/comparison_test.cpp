@@ -1,5 +1,6 @@
 #include "harness/comparison/comparison.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -10,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "harness/command_call.hpp"
 #include "harness/comparison/comparison_keys.hpp"
 #include "harness/comparison/parallel_runs.hpp"
+#include "harness/recording/run_folder.hpp"
 
 namespace harness {
 namespace {
@@ -200,6 +203,21 @@ TEST(ExecuteAll, AnInterruptLeavesTheRunsThatHaveEnded) {
   EXPECT_TRUE(finished.interrupted);
   ASSERT_EQ(finished.runs.size(), 1U);
   EXPECT_EQ(finished.runs[0].name, "first");
+}
+
+/// Robot and map turn with the start as one, so an unknown start bends no map. Means of four seeds.
+TEST(UnknownStart, CostsTheMapNothing) {
+  for (const char* heading : {"60", "180"}) {
+    const TemporaryFolder folder;
+    const test::Called called = test::call(
+        folder, fmt::format("compare {}/worlds/report2002.yaml --seeds 1..4 --duration 100 --json --quiet "
+                            "--set physics.engine=kinematic --set start_estimate.heading_sd_deg={} "
+                            "--set start_estimate.x_sd_m=10000 --set 'estimators={{ekf: {{}}, seif: {{}}}}'",
+                            SEIFBED_SOURCE_DIR, heading));
+    ASSERT_EQ(called.exit_code, 0) << called.errors;
+    const nlohmann::json seif = nlohmann::json::parse(called.output).at("estimators").at("seif");
+    EXPECT_LT(seif.at("landmark_rmse_aligned_ratio").at("value"), 1.1) << heading;
+  }
 }
 
 }  // namespace

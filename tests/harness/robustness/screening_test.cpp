@@ -63,7 +63,7 @@ TEST(Screening, AScanOfWhichNothingIsLeftIsAnEmptyScan) {
 
 TEST(Screening, LeavesOutObservationsWithACovarianceThatIsNone) {
   Screening screening(log_of_an_8_m_sensor());
-  for (const double variance : {0.0, -1.0, not_a_number, infinity}) {
+  for (const double variance : {0.0, -1.0, not_a_number, infinity, 1e-18, 1e300}) {
     seif::Observation z = seen(0, 1.0, 0.0);
     z.covariance(1, 1) = variance;
     Event event = scan_of({z});
