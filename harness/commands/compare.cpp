@@ -73,7 +73,8 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
     if (assignment.starts_with("seed="))
       throw BadInput(fmt::format("--set {}: seeds are given by --seeds", assignment));
   }
-  if (arguments.duration) overrides.push_back(fmt::format("duration_s={}", *arguments.duration));
+  if (arguments.duration)
+    add_override(overrides, "--duration", "duration_s", fmt::format("{}", *arguments.duration));
   const std::vector<std::uint64_t> seeds =
       parse_seeds(arguments.seeds.empty() ? "1..20" : std::string_view(arguments.seeds));
   const worlds::LoadResult loaded = load_with_baseline(

@@ -6,6 +6,7 @@
 #include "harness/doctor/library_versions.hpp"
 #include "harness/doctor/machine.hpp"
 #include "harness/doctor/self_test.hpp"
+#include "harness/terminal/messages.hpp"
 #include "harness/terminal/version.hpp"
 
 namespace harness {
@@ -19,7 +20,12 @@ int examine(bool json, const seif::Registry& registry) {
     diagnosis.libraries.push_back({std::string(library.name), true, std::string(library.version)});
   diagnosis.machine = look_at_machine();
   diagnosis.self_test = test_self(registry);
-  return print_all(json ? to_json(diagnosis) : diagnosis_board(diagnosis), is_well(diagnosis) ? 0 : 1);
+  if (json) {
+    print_out(to_json(diagnosis));
+  } else {
+    print_board(diagnosis_board(diagnosis));
+  }
+  return is_well(diagnosis) ? 0 : 1;
 }
 
 }  // namespace

@@ -32,8 +32,9 @@ struct RunArguments {
 
 int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   std::vector<std::string> overrides = arguments.overrides;
-  if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
-  if (arguments.duration) overrides.push_back(fmt::format("duration_s={}", *arguments.duration));
+  if (!arguments.seed.empty()) add_override(overrides, "--seed", "seed", arguments.seed);
+  if (arguments.duration)
+    add_override(overrides, "--duration", "duration_s", fmt::format("{}", *arguments.duration));
   const worlds::LoadResult loaded =
       load_runnable_world(arguments.world, overrides, registry, program_version());
   if (!loaded.world) {

@@ -114,7 +114,8 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
     add_reference(name, arguments, registry, summary, details);
   const int code = details.missing_references.empty() ? 0 : 1;
   if (arguments.json) return print_all(to_json(summary, details), code);
-  return print_all(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder), code);
+  print_board(scoreboard(summary) + '\n' + details_board(details) + without_truth(folder));
+  return code;
 }
 
 int score_any(ScoreArguments arguments, const seif::Registry& registry) {

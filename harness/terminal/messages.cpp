@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -42,10 +44,25 @@ bool is_control(std::uint32_t code) {
          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
-void tell_in(const char* colour, std::string_view message) {
+constexpr std::string_view red = "\033[31m", yellow = "\033[33m", usual = "\033[0m";
+
+/// True for the lines of the scoreboard and of doctor that do.
+bool tells_of_a_fault(std::string_view line) {
+  const std::array<std::string_view, 4> faults = {"  BAD ", " diverged ", " failed ",
+                                                  " had no positive definite belief "};
+  return std::ranges::any_of(
+      faults, [&](std::string_view fault) { return line.find(fault) != std::string_view::npos; });
+}
+
+/// An error shows in std::ferror.
+void write_to_stdout(std::string_view text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
+}
+
+void tell_in(std::string_view colour, std::string_view message) {
   const bool is_coloured = shows_colours(STDERR_FILENO);
   write_to_stderr(
-      fmt::format("{}{}{}\n", is_coloured ? colour : "", printable(message), is_coloured ? "\033[0m" : ""));
+      fmt::format("{}{}{}\n", is_coloured ? colour : "", printable(message), is_coloured ? usual : ""));
 }
 
 }  // namespace
@@ -87,8 +104,8 @@ bool shows_colours(int stream) {
 }
 
 void tell(std::string_view message) { write_to_stderr(printable(message) + '\n'); }
-void tell_warning(std::string_view message) { tell_in("\033[33m", message); }
-void tell_error(std::string_view message) { tell_in("\033[31m", message); }
+void tell_warning(std::string_view message) { tell_in(yellow, message); }
+void tell_error(std::string_view message) { tell_in(red, message); }
 
 void write_to_stderr(std::string_view text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr) == text.size());
@@ -96,14 +113,28 @@ void write_to_stderr(std::string_view text) {
 }
 
 void print_out(std::string_view text) {
-  const std::string shown = printable(text);
-  static_cast<void>(std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size());
+  write_to_stdout(printable(text));
+  std::fflush(stdout);
+}
+
+void print_board(std::string_view text) {
+  const bool is_coloured = shows_colours(STDOUT_FILENO);
+  while (!text.empty()) {
+    const std::size_t length = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, length);
+    text.remove_prefix(length);
+    if (is_coloured && tells_of_a_fault(line)) {
+      write_to_stdout(fmt::format("{}{}{}", red, printable(line), usual));
+    } else {
+      write_to_stdout(printable(line));
+    }
+  }
   std::fflush(stdout);
 }
 
 void print_data(std::string_view text) {
   if (::isatty(STDOUT_FILENO) == 1) return print_out(text);
-  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
+  write_to_stdout(text);
   std::fflush(stdout);
 }
 

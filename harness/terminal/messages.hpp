@@ -28,6 +28,8 @@ void write_to_stderr(std::string_view text);
 
 /// Prints to stdout, printable. An error is kept for finish_output().
 void print_out(std::string_view text);
+/// The same; lines that say that something went wrong are red on a terminal that shows colours.
+void print_board(std::string_view text);
 /// Prints data to stdout as it is, unless stdout is a terminal.
 void print_data(std::string_view text);
 

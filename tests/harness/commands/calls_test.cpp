@@ -228,6 +228,32 @@ TEST(Calls, ErrorsAreRedOnATerminalThatShowsColours) {
   EXPECT_TRUE(call(folder, "validate nothing.yaml", "TERM=xterm").errors.starts_with("nothing.yaml"));
 }
 
+TEST(Calls, WhatIsWrongIsRedInTheTableOfDoctor) {
+  const TemporaryFolder folder;
+  const auto without_ffmpeg = [&](const std::string& environment) {
+    return call_program(folder, "env -u NO_COLOR PATH=/nowhere " + environment +
+                                    " /usr/bin/script --quiet --return --command '" SEIFBED_PROGRAM
+                                    " doctor' /dev/null")
+        .output;
+  };
+  EXPECT_NE(without_ffmpeg("TERM=xterm").find("\033[31m  BAD   ffmpeg"), std::string::npos);
+  const std::string plain = without_ffmpeg("TERM=dumb");
+  EXPECT_NE(plain.find("  BAD   ffmpeg"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find('\033'), std::string::npos) << plain;
+}
+
+TEST(Calls, AValueThatIsGivenTwiceIsRefused) {
+  const TemporaryFolder folder;
+  write_tiny(folder);
+  for (const char* arguments :
+       {"run world.yaml --set seed=3 --seed 4", "run world.yaml --duration 3 --set duration_s=4",
+        "compare world.yaml --duration 3 --set duration_s=4"}) {
+    const Called called = call(folder, arguments);
+    EXPECT_EQ(called.exit_code, 2) << arguments;
+    EXPECT_NE(called.errors.find("leave one of them out"), std::string::npos) << called.errors;
+  }
+}
+
 TEST(Calls, ARunThatAnotherProcessWritesIsStillGoingOn) {
   const TemporaryFolder folder;
   write_tiny(folder);

@@ -239,10 +239,11 @@ INSTANTIATE_TEST_SUITE_P(
                   "cov_rr: this covariance has an error of 1e-09 m or rad; the least allowed is 1e-07"},
         BrokenLog{"observations.csv", "t,landmark,range,bearing,cov_rr,cov_rb,cov_bb\n1,1,1,0,1,0,1e300\n",
                   "cov_rr: this covariance has an error of 1e+150 m or rad; the largest allowed is 1000"},
-        BrokenLog{"log.yaml",
-                  "name: a\nrange_sd_m: 1\nbearing_sd_rad: 1\n"
-                  "start: {x_m: 0, y_m: 0, theta_rad: 0, cov_xx: 1e-24, cov_yy: 1, cov_tt: 1}\n",
-                  "log.yaml:4:47: this covariance has an error of 1e-12 m or rad; the least allowed is 1e-07"},
+        BrokenLog{
+            "log.yaml",
+            "name: a\nrange_sd_m: 1\nbearing_sd_rad: 1\n"
+            "start: {x_m: 0, y_m: 0, theta_rad: 0, cov_xx: 1e-24, cov_yy: 1, cov_tt: 1}\n",
+            "log.yaml:4:47: this covariance has an error of 1e-12 m or rad; the least allowed is 1e-07"},
         BrokenLog{"log.yaml", "name: a\nrange_sd_m: 1e-9\nbearing_sd_rad: 1\n", "log.yaml:2:13:"},
         BrokenLog{"odometry.csv",
                   "t,dx,dy,dtheta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt\n1,0,0,0,1e300,0,0,1,0,1\n",
