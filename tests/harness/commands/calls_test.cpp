@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "'1.5' is not allowed: it must be a whole number from 1 to 256"},
         Mistake{"paper --runs 99999999999999999999999", "--runs"},
         Mistake{"stress --slowest nan", "--slowest: 'nan'"}, Mistake{"stress --limit ekf=5x", "is not like"},
-        Mistake{"film run --at nan", "--at: 'nan' is not allowed: it must be a finite number"},
+        Mistake{"film run --at nan", "--at: 'nan' is not allowed: it must be a number from 0 to"},
         Mistake{"film run --fps 0", "--fps: '0' is not allowed"},
         Mistake{"--limits nan run world.yaml", "seifbed: --limits: 'nan' is not allowed"},
         Mistake{"replay run --robot 0", "--robot: '0' is not allowed: it must be a whole number from 1 to"}));
