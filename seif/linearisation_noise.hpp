@@ -15,9 +15,9 @@
 
 namespace seif {
 
-/// The variance of the heading within the map, by (L L')^-1, the belief of `window`. [rad^2] That is the variance
-/// in the world without that of the `start` [rad^2]: robot and map turn with the start as one. Half a degree of it
-/// counts all the same. `scratch` (w x 3).
+/// The variance of the heading within the map, by (L L')^-1, the belief of `window`. [rad^2] That is the
+/// variance in the world without that of the `start` [rad^2], because robot and map turn with the start as one;
+/// but at least half a degree squared, as far as the variance in the world is so large. `scratch` (w x 3).
 double heading_variance_in_map(const WindowFactor& window, double start,
                                Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
 
@@ -31,7 +31,7 @@ Eigen::Vector2d linearisation_noise(const InformationState& state, const Observa
                                     const WindowFactor& window, double start,
                                     Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
 
-/// The same for a landmark of which nothing but the observation is known. `V` [rad^2]
+/// The same for a landmark of which nothing but the observation is known, with V [rad^2].
 Eigen::Vector2d linearisation_noise(const Observation& observation, double V);
 
 /// A guess of the first function in a few operations. Instead of C it takes the larger of the sensor's noise and

@@ -54,16 +54,14 @@ struct Check {
   }
 };
 
-/// Logs allow no larger error of a range.
 void check_range_noise(const Check& check) {
-  constexpr double largest_sd = 1e3;  // [m]
   const LandmarkSensor& sensor = check.world.landmark_sensor;
   const double sd = std::hypot(sensor.range_sd, sensor.range_sd_per_m * sensor.max_range);
-  if (!check.sound({"sensors.landmark_sensor"}) || sd <= largest_sd) return;
+  if (!check.sound({"sensors.landmark_sensor"}) || sd <= largest_range_sd) return;
   check.refuse("sensors.landmark_sensor",
                fmt::format("at max_range_m a range has a standard deviation of {:.4g} m; the largest allowed "
                            "is {:g} m",
-                           sd, largest_sd));
+                           sd, largest_range_sd));
 }
 
 void check_rates(const Check& check) {

@@ -20,6 +20,8 @@ struct Encoders {
 
 enum class LandmarkIds { known, hidden };
 
+inline constexpr double largest_range_sd = 1e3;  // [m] at any range; logs allow no more
+
 /// A range-bearing sensor. It names the landmark that it sees, unless `ids` is hidden.
 struct LandmarkSensor {
   int rate = 5;                      // [Hz] of scans

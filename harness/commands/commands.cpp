@@ -101,16 +101,6 @@ int print_result(const RunResult& result, const std::filesystem::path& folder,
   return print_output(output, to_json(result.summary), scoreboard(result.summary), folder, exit_code(result));
 }
 
-void add_override(std::vector<std::string>& overrides, const std::string& option, const std::string& key,
-                  const std::string& value) {
-  for (const std::string& assignment : overrides) {
-    if (assignment.starts_with(key + '='))
-      throw BadInput(
-          fmt::format("--set {}: {} {} gives this too; leave one of them out", assignment, option, value));
-  }
-  overrides.push_back(key + '=' + value);
-}
-
 int print_output(const OutputArguments& output, const std::string& json, const std::string& board,
                  const std::filesystem::path& folder, int exit_code) {
   if (output.json) return print_all(json, exit_code);

@@ -72,10 +72,6 @@ std::filesystem::path make_folder(const OutputArguments& output, const std::stri
 /// Makes the folder of a run, by default runs/`name`, and enters it into the plan.
 void open_folder(PreparedRun& run, const OutputArguments& output, const std::string& name);
 
-/// Adds the override `key=value` of an option such as --seed. Throws BadInput if a --set gives the same key.
-void add_override(std::vector<std::string>& overrides, const std::string& option, const std::string& key,
-                  const std::string& value);
-
 /// Prints the result of a run: its error, and the summary as JSON or as a scoreboard. Returns the exit code.
 int print_result(const RunResult& result, const std::filesystem::path& folder, const OutputArguments& output);
 

@@ -16,6 +16,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/run/overrides.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/run/runnable_world.hpp"
 #include "harness/terminal/checks.hpp"

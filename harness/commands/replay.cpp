@@ -33,7 +33,6 @@ int replay(const ReplayArguments& arguments, const seif::Registry& registry) {
   ReplayChoices choices = arguments.choices;
   std::ranges::copy_if(choices.overrides, std::back_inserter(log.noise.overrides), sets_noise);
   std::erase_if(choices.overrides, sets_noise);
-  if (!choices.seed.empty()) add_override(choices.overrides, "--seed", "seed", choices.seed);
   choices.defaults = default_settings(format_of(log));
   const worlds::LoadResult settings = load_replay_settings(log.path, choices, registry);
   if (!settings.world) {

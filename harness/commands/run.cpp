@@ -9,6 +9,7 @@
 #include "harness/commands/commands.hpp"
 #include "harness/film/film.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/run/overrides.hpp"
 #include "harness/run/prepared_run.hpp"
 #include "harness/run/resume.hpp"
 #include "harness/run/runnable_world.hpp"

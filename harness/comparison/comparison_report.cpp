@@ -149,13 +149,10 @@ std::vector<std::vector<TextRow>> comparison_tables(const Comparison& comparison
 }
 
 std::string comparison_board(const Comparison& comparison) {
-  const std::vector<std::vector<TextRow>> tables = comparison_tables(comparison);
-  const std::vector<TextRow>& accuracy = tables[0];
-  const std::vector<TextRow>& consistency = tables[1];
-  const std::vector<TextRow>& cost = tables[2];
-  std::string text = fmt::format("{}, {} runs{}\n\n{}\n{}\n{}\n{}", comparison.name, comparison.runs.size(),
-                                 comparison.interrupted ? " (interrupted)" : "", text_table(accuracy),
-                                 text_table(consistency), text_table(cost), footnote(comparison.baseline));
+  std::string text = fmt::format("{}, {} runs{}\n\n", comparison.name, comparison.runs.size(),
+                                 comparison.interrupted ? " (interrupted)" : "");
+  for (const std::vector<TextRow>& table : comparison_tables(comparison)) text += text_table(table) + '\n';
+  text += footnote(comparison.baseline);
   for (const std::string& note : notes_of(comparison)) text += note + '\n';
   const std::string failed = failures_of(comparison);
   return failed.empty() ? text : text + '\n' + failed;

@@ -42,9 +42,9 @@ class OutputFile {
 /// What may happen to a regular file that has the name of an output.
 enum class Existing { keep, replace };
 
-/// Throws BadInput if an output may not have this name: it is that of a device, a pipe, a folder or a link, which
-/// nothing ever replaces, or that of a regular file that is to be kept. An output that takes long is refused so
-/// before it begins.
+/// Throws BadInput if an output may not have this name: it is that of a device, a pipe, a folder or a link,
+/// which nothing ever replaces, or that of a regular file that is to be kept. An output that takes long calls
+/// this before it begins.
 void check_output(const std::filesystem::path& path, Existing existing);
 
 /// Gives a finished file its name, under the rule of check_output. Throws std::system_error too.

@@ -53,8 +53,8 @@ void append_dashes(const std::vector<Eigen::Vector2f>& points, const Dashes& das
                    std::vector<render::OverlayItem>& overlay);
 
 /// Appends the chart and its axes. The band of the first curve is filled, that of each other has a dashed edge:
-/// so bands that lie on each other can be told apart. The vertical axis ends at a round number at or above the largest value.
-/// All lengths but those of the frame are multiplied by `scale`.
+/// so bands that lie on each other can be told apart. The vertical axis ends at a round number at or above the
+/// largest value. All lengths but those of the frame are multiplied by `scale`.
 void append_chart(const Chart& chart, float scale, std::vector<render::OverlayItem>& overlay);
 
 }  // namespace harness

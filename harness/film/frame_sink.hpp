@@ -33,8 +33,8 @@ class FrameSink {
 std::unique_ptr<FrameSink> make_frame_sink(const std::filesystem::path& file, const FrameFormat& format,
                                            bool is_still);
 
-/// Throws BadInput if such a sink may not write there, or if there are numbered pictures of this name that are to
-/// be kept: pictures of two films would be mixed up.
+/// Throws BadInput if such a sink may not write there, or if there are numbered pictures of this name that are
+/// to be kept: pictures of two films would be mixed up.
 void check_frame_sink(const std::filesystem::path& file, bool is_still, Existing existing);
 
 /// The names of all files that such a sink has written, for a message: for many numbered pictures the first

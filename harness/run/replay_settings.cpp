@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "harness/estimators/estimator_schemas.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/readers/open_log.hpp"
+#include "harness/run/overrides.hpp"
 #include "worlds/check.hpp"
 #include "worlds/describe.hpp"
 #include "worlds/merge.hpp"
@@ -66,11 +68,12 @@ worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const 
   std::optional<worlds::Node> document = read_settings(log, choices, result.problems);
   worlds::WorldFile file;
   if (document) {
-    for (const std::string& assignment : choices.overrides) {
+    std::vector<std::string> overrides = choices.overrides;
+    if (!choices.seed.empty()) add_override(overrides, "--seed", "seed", choices.seed);
+    for (const std::string& assignment : overrides) {
       check_override(assignment);
       worlds::apply_override(*document, assignment, result.problems);
     }
-    if (!choices.seed.empty()) worlds::apply_override(*document, "seed=" + choices.seed, result.problems);
     select_estimators(*document, choices.estimators, registry, result.problems);
     const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
     worlds::read_fields(

@@ -1,5 +1,5 @@
-// Limits of the covariances in logs. Beyond them double precision cannot hold one error beside the others, and
-// filters fail.
+// Limits of the covariances in logs. A filter calculates with 16 digits; beyond these limits they do not
+// suffice for the smallest and the largest error together, and the filter fails.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ std::string problem_of_observation(const Eigen::Matrix2d& covariance);
 /// The same for the covariance of the pose at the start, (3 x 3) [m, rad]: of 1e-7 to 1e4 m or rad.
 std::string problem_of_start(const Eigen::Matrix3d& covariance);
 
-/// The same for the covariance of a motion, (3 x 3) [m, rad], whose rank may be any: of 1e4 m or rad at the most.
+/// The same for the covariance of a motion, (3 x 3) [m, rad], of any rank: at most 1e4 m or rad.
 std::string problem_of_motion(const Eigen::Matrix3d& covariance);
 
 }  // namespace harness

@@ -214,30 +214,30 @@ TEST(Calls, AFolderThatCannotBeUsedIsToldInWords) {
   }
 }
 
+/// What the program prints on a terminal. `environment` has assignments, as for env.
+std::string on_terminal(const TemporaryFolder& folder, const std::string& environment,
+                        const std::string& arguments) {
+  return call_program(folder, "env -u NO_COLOR " + environment +
+                                  " /usr/bin/script --quiet --return --command '" SEIFBED_PROGRAM " " +
+                                  arguments + "' /dev/null")
+      .output;
+}
+
 TEST(Calls, ErrorsAreRedOnATerminalThatShowsColours) {
   const TemporaryFolder folder;
-  const auto on_terminal = [&](const std::string& environment) {
-    return call_program(folder, "env -u NO_COLOR " + environment +
-                                    " script --quiet --return --command '" SEIFBED_PROGRAM
-                                    " validate nothing.yaml' /dev/null")
-        .output;
-  };
-  EXPECT_TRUE(on_terminal("TERM=xterm").starts_with("\033[31mnothing.yaml")) << on_terminal("TERM=xterm");
+  const std::string coloured = on_terminal(folder, "TERM=xterm", "validate nothing.yaml");
+  EXPECT_TRUE(coloured.starts_with("\033[31mnothing.yaml")) << coloured;
   for (const char* environment : {"TERM=dumb", "TERM=xterm NO_COLOR=1"})
-    EXPECT_TRUE(on_terminal(environment).starts_with("nothing.yaml")) << environment;
+    EXPECT_TRUE(on_terminal(folder, environment, "validate nothing.yaml").starts_with("nothing.yaml"))
+        << environment;
   EXPECT_TRUE(call(folder, "validate nothing.yaml", "TERM=xterm").errors.starts_with("nothing.yaml"));
 }
 
 TEST(Calls, WhatIsWrongIsRedInTheTableOfDoctor) {
   const TemporaryFolder folder;
-  const auto without_ffmpeg = [&](const std::string& environment) {
-    return call_program(folder, "env -u NO_COLOR PATH=/nowhere " + environment +
-                                    " /usr/bin/script --quiet --return --command '" SEIFBED_PROGRAM
-                                    " doctor' /dev/null")
-        .output;
-  };
-  EXPECT_NE(without_ffmpeg("TERM=xterm").find("\033[31m  BAD   ffmpeg"), std::string::npos);
-  const std::string plain = without_ffmpeg("TERM=dumb");
+  const std::string coloured = on_terminal(folder, "TERM=xterm PATH=/nowhere", "doctor");
+  EXPECT_NE(coloured.find("\033[31m  BAD   ffmpeg"), std::string::npos) << coloured;
+  const std::string plain = on_terminal(folder, "TERM=dumb PATH=/nowhere", "doctor");
   EXPECT_NE(plain.find("  BAD   ffmpeg"), std::string::npos) << plain;
   EXPECT_EQ(plain.find('\033'), std::string::npos) << plain;
 }
@@ -245,9 +245,11 @@ TEST(Calls, WhatIsWrongIsRedInTheTableOfDoctor) {
 TEST(Calls, AValueThatIsGivenTwiceIsRefused) {
   const TemporaryFolder folder;
   write_tiny(folder);
+  ASSERT_EQ(call(folder, "run world.yaml --quiet --out log").exit_code, 0);
   for (const char* arguments :
        {"run world.yaml --set seed=3 --seed 4", "run world.yaml --duration 3 --set duration_s=4",
-        "compare world.yaml --duration 3 --set duration_s=4"}) {
+        "compare world.yaml --duration 3 --set duration_s=4", "replay log --set seed=3 --seed 4",
+        "compare log --set seed=3 --seed 4"}) {
     const Called called = call(folder, arguments);
     EXPECT_EQ(called.exit_code, 2) << arguments;
     EXPECT_NE(called.errors.find("leave one of them out"), std::string::npos) << called.errors;

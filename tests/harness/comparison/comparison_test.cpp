@@ -206,7 +206,7 @@ TEST(ExecuteAll, AnInterruptLeavesTheRunsThatHaveEnded) {
 }
 
 /// Robot and map turn with the start as one, so an unknown start bends no map. Means of four seeds.
-TEST(UnknownStart, CostsTheMapNothing) {
+TEST(UnknownStart, BendsNoMap) {
   for (const char* heading : {"60", "180"}) {
     const TemporaryFolder folder;
     const test::Called called = test::call(

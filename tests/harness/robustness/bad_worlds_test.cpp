@@ -113,6 +113,8 @@ std::vector<BadWorld> bad_numbers() {
       {"DurationIsInfinite", "duration_s: -.inf\n", "1:13", "'duration_s' must be a finite number"},
       {"DurationIsHuge", "duration_s: 1e18\n", "1:13", "at most 1000000 s"},
       {"GroundIsHuge", "ground: {size_m: [1e30, 10]}\n", "1:19", "at most 100000 m"},
+      {"RangeNoiseIsHuge", "sensors: {landmark_sensor: {range_sd_per_m: 10, max_range_m: 1000}}\n", "1:28",
+       "a standard deviation of 1e+04 m; the largest allowed is 1000 m"},
       {"StepRateIsHuge", "physics: {step_rate_hz: 1000000000}\n", "1:25", "at most 10000 Hz"},
       {"AMillionDigits", "duration_s: " + std::string(1'000'000, '9') + "\n", "1:13", "9999999999..."},
       {"RangeSdIsNegative", "sensors: {landmark_sensor: {range_sd_m: -0.1}}\n", "1:41",
