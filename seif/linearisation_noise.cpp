@@ -8,7 +8,7 @@ namespace {
 constexpr double nearest_range = 0.01;  // [m] as in models.cpp: a nearer landmark has no direction
 
 // [rad^2] Without it seif is overconfident where ranges are good to 0.1 mm and bearings to 0.001 degrees.
-constexpr double least_in_map = 1e-4;
+constexpr double least_heading_variance = 1e-4;
 
 /// The lever about which the heading turns the landmark: perpendicular to the vector from pose to landmark.
 Eigen::Vector2d turned(const ObservationFactor& factor) {
@@ -31,14 +31,10 @@ Eigen::Vector2d second_order(const Spread& C, double distance, double V) {
           (C.along * C.across + 2.0 * C.mixed * C.mixed) / (d2 * d2) + V * C.along / d2};
 }
 
-double in_map(double heading_variance, double start) {
-  return std::max(heading_variance - start, std::min(heading_variance, least_in_map));
-}
-
 }  // namespace
 
 Eigen::Vector2d linearisation_noise(const InformationState& state, const ObservationFactor& factor,
-                                    const WindowFactor& window, double start,
+                                    const WindowFactor& window,
                                     Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch) {
   if (scratch.rows() < window.size) scratch.resize(2 * window.size, 3);
   const int row = InformationState::row_of(state.position(factor.slot));
@@ -50,7 +46,7 @@ Eigen::Vector2d linearisation_noise(const InformationState& state, const Observa
   Y(2, 2) = 1.0;
   window.L().triangularView<Eigen::Lower>().solveInPlace(Y);
   const Eigen::Matrix2d C = Y.leftCols<2>().transpose() * Y.leftCols<2>();
-  const double V = in_map(Y.col(2).squaredNorm(), start);
+  const double V = std::max(Y.col(2).squaredNorm(), least_heading_variance);
 
   const Eigen::Vector2d along = factor.J_m.row(0).transpose();
   const Eigen::Vector2d across(-along.y(), along.x());
@@ -76,14 +72,13 @@ Eigen::Vector2d rough_linearisation_noise(const ObservationFactor& factor, doubl
          V * (turned_by_heading + lever_error(factor).cwiseAbs2());
 }
 
-double heading_variance_in_map(const WindowFactor& window, double start,
-                               Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch) {
+double heading_variance(const WindowFactor& window, Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch) {
   if (scratch.rows() < window.size) scratch.resize(2 * window.size, 3);
   auto y = scratch.col(0).head(window.size);
   y.setZero();
   y(2) = 1.0;
   window.L().triangularView<Eigen::Lower>().solveInPlace(y);
-  return in_map(y.squaredNorm(), start);
+  return std::max(y.squaredNorm(), least_heading_variance);
 }
 
 }  // namespace seif

@@ -15,20 +15,18 @@
 
 namespace seif {
 
-/// The variance of the heading within the map, by (L L')^-1, the belief of `window`. [rad^2] That is the
-/// variance in the world without that of the `start` [rad^2], because robot and map turn with the start as one;
-/// but at least half a degree squared, as far as the variance in the world is so large. `scratch` (w x 3).
-double heading_variance_in_map(const WindowFactor& window, double start,
-                               Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
+/// The variance of the heading, by (L L')^-1, the belief of `window`; at least half a degree squared. [rad^2]
+/// `scratch` (w x 3).
+double heading_variance(const WindowFactor& window, Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
 
 /// Mean squares of the second-order terms of range and bearing: (2 x 1) [m^2, rad^2].
 /// With C the covariance of where the robot sees the landmark, along and across its direction, V the variance
-/// of the heading within the map, and o the error of J_x's heading column (first estimates):
+/// of the heading, and o the error of J_x's heading column (first estimates):
 ///   range    3/4 C_aa^2 / d^2 + V (C_aa + o_1^2)
 ///   bearing  (C_ll C_aa + 2 C_la^2) / d^4 + V (C_ll / d^2 + o_2^2)
-/// for a distance d. The belief is that of `window`, which must be up to date; `start` and `scratch` as above.
+/// for a distance d. The belief is that of `window`, which must be up to date; `scratch` as above.
 Eigen::Vector2d linearisation_noise(const InformationState& state, const ObservationFactor& factor,
-                                    const WindowFactor& window, double start,
+                                    const WindowFactor& window,
                                     Eigen::Matrix<double, Eigen::Dynamic, 3>& scratch);
 
 /// The same for a landmark of which nothing but the observation is known, with V [rad^2].

@@ -20,10 +20,15 @@ constexpr int most_relinearisations = 4;  // [-] in one update
 /// [-] Second-order terms below this share of the sensor's variances are ignored.
 constexpr double least_curvature = 0.1;
 
+EstimatorSetup in_start_frame(EstimatorSetup setup) {
+  setup.start = StartFrame(setup.start).known();
+  return setup;
+}
+
 }  // namespace
 
 Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
-    : InformationFilter(setup), options_(options), start_variance_(setup.start.covariance(2, 2)) {
+    : InformationFilter(in_start_frame(setup)), options_(options), start_(setup.start) {
   make_keeper(setup.start.mean);
   if (keeper_->window_factor() == nullptr) {
     if (options_.gate > 0.0) throw std::invalid_argument("gate needs mean_recovery: tree");
@@ -139,16 +144,16 @@ double Seif::noise_factor() const {
   return is_known ? options_.linearisation_noise * options_.linearisation_noise : 0.0;
 }
 
-/// Within the map, by the latest solution for the window. [rad^2]
+/// By the latest solution for the window. [rad^2]
 double Seif::heading_variance(double t) {
   if (keeper_->window_factor()->size == 0) solve_window(t);
-  return heading_variance_in_map(*keeper_->window_factor(), start_variance_, columns_);
+  return seif::heading_variance(*keeper_->window_factor(), columns_);
 }
 
 /// Given the latest solution for the window. [m^2, rad^2]
 Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
   return noise_factor() *
-         linearisation_noise(state_, factor, *keeper_->window_factor(), start_variance_, columns_);
+         linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
 }
 
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each
@@ -272,7 +277,32 @@ std::optional<Eigen::Matrix3d> Seif::pose_covariance() const {
   Y.setZero();
   Y.topRows<3>().setIdentity();
   window->L().triangularView<Eigen::Lower>().solveInPlace(Y);
-  return Eigen::Matrix3d(Y.transpose() * Y);
+  return Eigen::Matrix3d(Y.transpose() * Y) + start_.of_pose(pose());
+}
+
+std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
+  std::optional<MarginalCovariances> marginals = InformationFilter::marginal_covariances(landmarks);
+  if (!marginals) return marginals;
+  marginals->pose += start_.of_pose(pose());
+  for (std::size_t i = 0; i < landmarks.size(); ++i)
+    marginals->landmarks[i] += start_.of_point(mean(state_.find(landmarks[i]).value()));
+  return marginals;
+}
+
+std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
+    std::span<const LandmarkIds> groups) const {
+  std::optional<std::vector<Eigen::MatrixXd>> joint = InformationFilter::joint_covariances(groups);
+  for (std::size_t g = 0; joint && g < groups.size(); ++g) {
+    Eigen::VectorXd means(3 + 2 * static_cast<Eigen::Index>(groups[g].size()));
+    means.head<3>() << pose().x, pose().y, pose().theta;
+    Eigen::Index row = 3;
+    for (const LandmarkId landmark : groups[g]) {
+      means.segment<2>(row) = mean(state_.find(landmark).value());
+      row += 2;
+    }
+    start_.add_uncertainty(means, (*joint)[g]);
+  }
+  return joint;
 }
 
 std::size_t Seif::memory_bytes() const { return state_.memory_bytes() + keeper_->memory_bytes(); }

@@ -16,6 +16,7 @@
 #include "seif/mean_keeper.hpp"
 #include "seif/mean_recovery.hpp"
 #include "seif/observation_factor.hpp"
+#include "seif/start_frame.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
@@ -68,6 +69,10 @@ class Seif final : public InformationFilter {
   void measurement_update(const Scan& scan, const StageDone& done) override;
   /// With MeanRecovery::tree, from a scan to the next motion: what the tree's last solution gives.
   std::optional<Eigen::Matrix3d> pose_covariance() const override;
+  std::optional<MarginalCovariances> marginal_covariances(
+      std::span<const LandmarkId> landmarks) const override;
+  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
+      std::span<const LandmarkIds> groups) const override;
   Counts counts() const override;
   std::size_t memory_bytes() const override;
   /// With MeanRecovery::tree; null otherwise.
@@ -94,7 +99,7 @@ class Seif final : public InformationFilter {
   void sparsify(double t);
 
   SeifOptions options_;
-  double start_variance_;  // [rad^2] of the heading
+  StartFrame start_;
   std::unique_ptr<MeanKeeper> keeper_;
   std::unique_ptr<LocalBelief> belief_;
   double anchoring_ = 0.0;  // [nat]

@@ -25,7 +25,6 @@ class TreeBelief final : public LocalBelief {
   Eigen::Vector2d mean_of(LandmarkId landmark) const override;
   ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override;
   void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
-  bool keeps_start_uncertainty() const override { return state_.first_estimates().in_use(); }
   void want(std::span<const LandmarkId> landmarks) override;
   void equate(LandmarkId a, LandmarkId b) override;
 
