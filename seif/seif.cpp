@@ -21,7 +21,7 @@ constexpr int most_relinearisations = 4;  // [-] in one update
 constexpr double least_curvature = 0.1;
 
 EstimatorSetup in_start_frame(EstimatorSetup setup) {
-  setup.start = StartFrame(setup.start).known();
+  setup.start = StartFrame(setup.start).inner();
   return setup;
 }
 
@@ -300,7 +300,7 @@ std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
       means.segment<2>(row) = mean(state_.find(landmark).value());
       row += 2;
     }
-    start_.add_uncertainty(means, (*joint)[g]);
+    start_.add_to((*joint)[g], means);
   }
   return joint;
 }

@@ -6,43 +6,50 @@
 namespace seif {
 namespace {
 
-constexpr double known_sd = 1e-6;  // [m, rad]
+constexpr double D = 1e-3;  // [m, rad]
+
+/// X' X, symmetric to the bit.
+template <class Matrix>
+auto squared(const Matrix& X) {
+  const auto Y = X.eval();
+  return (Y.transpose() * Y).eval();
+}
 
 }  // namespace
 
-StartFrame::StartFrame(const PoseEstimate& start) : start_(start) {
-  if (start.covariance.llt().info() != Eigen::Success)
+StartFrame::StartFrame(const PoseEstimate& start) : inner_(start) {
+  const Eigen::Matrix3d& Sigma = start.covariance;
+  if (Sigma.llt().info() != Eigen::Success)
     throw std::invalid_argument("the covariance of the start estimate is not positive definite");
-}
-
-PoseEstimate StartFrame::known() const {
-  return {start_.mean, known_sd * known_sd * Eigen::Matrix3d::Identity()};
+  const Eigen::LLT<Eigen::Matrix3d> sum(Sigma + D * D * Eigen::Matrix3d::Identity());
+  outer_factor_ = sum.matrixL().solve(Sigma);
+  inner_.covariance = D * D * sum.solve(Sigma);  // D^2 (Sigma + D^2)^-1 Sigma
+  inner_.covariance = (0.5 * (inner_.covariance + inner_.covariance.transpose())).eval();
 }
 
 Eigen::Matrix<double, 2, 3> StartFrame::moved(const Eigen::Vector2d& p_world) const {
   Eigen::Matrix<double, 2, 3> J;
-  J << 1.0, 0.0, start_.mean.y - p_world.y(), 0.0, 1.0, p_world.x() - start_.mean.x;
+  J << 1.0, 0.0, inner_.mean.y - p_world.y(), 0.0, 1.0, p_world.x() - inner_.mean.x;
   return J;
 }
 
 Eigen::Matrix3d StartFrame::of_pose(const Pose2& pose) const {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
   J.topRows<2>() = moved({pose.x, pose.y});
-  return J * start_.covariance * J.transpose();
+  return squared(outer_factor_ * J.transpose());
 }
 
 Eigen::Matrix2d StartFrame::of_point(const Eigen::Vector2d& p_world) const {
   const Eigen::Matrix<double, 2, 3> J = moved(p_world);
-  return J * start_.covariance * J.transpose();
+  return squared(outer_factor_ * J.transpose());
 }
 
-void StartFrame::add_uncertainty(const Eigen::VectorXd& means,
-                                 Eigen::Ref<Eigen::MatrixXd> covariance) const {
+void StartFrame::add_to(Eigen::Ref<Eigen::MatrixXd> covariance, const Eigen::VectorXd& means) const {
   Eigen::MatrixXd J(means.size(), 3);
-  J.topRows<3>() = Eigen::Matrix3d::Identity();
+  J.topRows<3>().setIdentity();
   J.topRows<2>() = moved(means.head<2>());
   for (Eigen::Index row = 3; row < means.size(); row += 2) J.middleRows<2>(row) = moved(means.segment<2>(row));
-  covariance += J * start_.covariance * J.transpose();
+  covariance += squared(outer_factor_ * J.transpose());
 }
 
 }  // namespace seif

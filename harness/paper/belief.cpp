@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string_view>
 
@@ -19,6 +20,16 @@ Eigen::MatrixXd inverse_of(const LiveEstimator& estimator, const Eigen::MatrixXd
   const Eigen::LLT<Eigen::MatrixXd> llt(M);
   if (llt.info() != Eigen::Success) throw unfit(estimator, "its matrix is not positive definite");
   return llt.solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+}
+
+/// Of a filter that keeps an information matrix. Not simply its inverse: a filter may leave out of it what the
+/// start is uncertain of.
+Eigen::MatrixXd covariance_of(const LiveEstimator& estimator) {
+  seif::LandmarkIds all;
+  for (const seif::LandmarkEstimate& estimate : estimator.filter->map()) all.push_back(estimate.landmark);
+  const auto joint = estimator.filter->joint_covariances(std::array{all});
+  if (!joint) throw unfit(estimator, "its matrix is not positive definite");
+  return joint->front();
 }
 
 Eigen::Index row_of(int landmark) { return 3 + 2 * landmark; }
@@ -45,9 +56,8 @@ Belief belief_of(const LiveEstimator& estimator, std::span<const TrueLandmark> t
   const Eigen::MatrixXd M = estimator.filter->whole_belief_matrix();
   if (M.size() == 0) throw unfit(estimator, "it keeps no matrix");
   const bool is_covariance = estimator.filter->belief_matrix() == seif::BeliefMatrix::covariance;
-  const Eigen::MatrixXd inverse = inverse_of(estimator, M);
-  belief.covariance = is_covariance ? M : inverse;
-  belief.information = is_covariance ? inverse : M;
+  belief.covariance = is_covariance ? M : covariance_of(estimator);
+  belief.information = is_covariance ? inverse_of(estimator, M) : M;
   return belief;
 }
 

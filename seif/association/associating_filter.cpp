@@ -41,7 +41,6 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const Es
                                      const AssociationOptions& options)
     : filter_(std::move(filter)),
       belief_(belief_of(*filter_)),
-      start_(setup.start),
       T_robot_sensor_(setup.T_robot_sensor),
       options_(options),
       matcher_(options.match_probability, options.new_probability),
@@ -99,7 +98,8 @@ void AssociatingFilter::refresh_grid() {
 /// Mostly all that is seen is known, and a few landmarks near each observation explain it. Otherwise as many
 /// as may have to be thought of.
 void AssociatingFilter::find_pairs(const Scan& scan) {
-  const Eigen::Matrix3d P_x = pose_covariance_in_map();
+  Eigen::Matrix3d P_x;
+  belief_.covariance_with({}, P_x);
   const std::size_t each = std::clamp(most_asked / std::max<std::size_t>(scan.observations.size(), 1),
                                       few_per_observation, most_per_observation);
   for (const std::size_t max_count : {few_per_observation, each}) {
@@ -107,17 +107,6 @@ void AssociatingFilter::find_pairs(const Scan& scan) {
     options_.jointly ? matcher_.match_jointly() : matcher_.match_nearest();
     if (matcher_.all_matched() || each == few_per_observation) return;
   }
-}
-
-/// Of the pose in the map: without what the start is uncertain of, which moves the map with the pose.
-Eigen::Matrix3d AssociatingFilter::pose_covariance_in_map() const {
-  Eigen::Matrix3d P_x;
-  belief_.covariance_with({}, P_x);
-  if (!belief_.keeps_start_uncertainty()) return P_x;
-  const Pose2 pose = filter_->pose();
-  Eigen::Matrix3d J_wrt_start = Eigen::Matrix3d::Identity();
-  J_wrt_start.topRightCorner<2, 1>() << start_.mean.y - pose.y, pose.x - start_.mean.x;
-  return P_x - J_wrt_start * start_.covariance * J_wrt_start.transpose();
 }
 
 void AssociatingFilter::find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count) {

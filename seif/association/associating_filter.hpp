@@ -92,7 +92,6 @@ class AssociatingFilter final : public Estimator {
   void find_pairs(const Scan& scan);
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);
   void gather_near(const Observation& observation, const Eigen::Matrix3d& P_x, std::size_t max_count);
-  Eigen::Matrix3d pose_covariance_in_map() const;
   int number_of(LandmarkId id);
   bool want_near(const Seen& seen);
   void name(const Scan& scan);
@@ -107,7 +106,6 @@ class AssociatingFilter final : public Estimator {
 
   std::unique_ptr<Estimator> filter_;
   LocalBelief& belief_;  // of filter_
-  PoseEstimate start_;
   Pose2 T_robot_sensor_;
   AssociationOptions options_;
   ScanMatcher matcher_;

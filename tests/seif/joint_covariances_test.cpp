@@ -24,7 +24,7 @@ Eigen::MatrixXd joint_block(const Eigen::MatrixXd& Sigma, const std::vector<int>
 
 class JointCovariancesOf : public testing::TestWithParam<std::string> {
  protected:
-  JointCovariancesOf() : filter(test::make(GetParam(), drive.setup())) {
+  JointCovariancesOf() : setup(drive.setup()), filter(test::make(GetParam(), setup)) {
     for (int k = 0; k < 1.3 * drive.steps_for_a_round(); ++k) drive.step(*filter);
   }
 
@@ -44,12 +44,10 @@ class JointCovariancesOf : public testing::TestWithParam<std::string> {
     }
   }
 
-  Eigen::MatrixXd Sigma() const {
-    const Eigen::MatrixXd M = test::matrix_of(*filter);
-    return GetParam() == "ekf" ? M : oracle::inverse(M);
-  }
+  Eigen::MatrixXd Sigma() const { return test::covariance_of(*filter, setup.start); }
 
   test::RingDrive drive{test::under_sanitizer ? 40 : 60, 17};
+  const EstimatorSetup setup;
   std::unique_ptr<Estimator> filter;
 };
 

@@ -25,4 +25,27 @@ inline Eigen::MatrixXd matrix_of(const Estimator& filter) {
   return dynamic_cast<const Ekf&>(filter).Sigma();
 }
 
+/// The covariance of [x y theta | the landmarks of map()] by that matrix. A `seif` leaves out of its matrix what
+/// the start is uncertain of: here that is added as one rigid motion of robot and map.
+inline Eigen::MatrixXd covariance_of(const Estimator& filter, const PoseEstimate& begin) {
+  const Eigen::MatrixXd M = matrix_of(filter);
+  if (filter.belief_matrix() == BeliefMatrix::covariance) return M;
+  Eigen::MatrixXd Sigma = oracle::inverse(M);
+  if (dynamic_cast<const Seif*>(&filter) == nullptr) return Sigma;
+  const std::vector<LandmarkEstimate> map = filter.map();
+  Eigen::MatrixXd moved(Sigma.rows(), 3);  // by the start
+  const auto fill = [&](Eigen::Index row, double x, double y) {
+    moved.middleRows<2>(row) << 1.0, 0.0, begin.mean.y - y, 0.0, 1.0, x - begin.mean.x;
+  };
+  fill(0, filter.pose().x, filter.pose().y);
+  moved.row(2) << 0.0, 0.0, 1.0;
+  Eigen::Index row = 3;
+  for (const LandmarkEstimate& estimate : map) {
+    fill(row, estimate.mean.x(), estimate.mean.y());
+    row += 2;
+  }
+  const Eigen::Matrix3d outer = begin.covariance - StartFrame(begin).inner().covariance;
+  return Sigma + moved * outer * moved.transpose();
+}
+
 }  // namespace seif::test
