@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 
 #include "seif/exact_mean.hpp"
@@ -152,8 +153,7 @@ double Seif::heading_variance(double t) {
 
 /// Given the latest solution for the window. [m^2, rad^2]
 Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
-  return noise_factor() *
-         linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
+  return noise_factor() * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
 }
 
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -48,12 +49,14 @@ struct SeifOptions {
   CondensationOptions tree = {};
 };
 
-/// It differs from the report's filter in six points:
+/// It differs from the report's filter in seven points:
 /// - It keeps r = xi - Omega mu, so that a step of the mean is exact (information_state).
 /// - It solves for robot and active landmarks after the observations, and places new landmarks from the
 ///   corrected pose.
 /// - It takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes.
+/// - It estimates in the frame of its start, and adds what the start is uncertain of to its covariances
+///   (start_frame).
 /// - It counts what an observation lacks in linearity as noise.
 /// - It sparsifies by the gauge-free rule, in bursts, and never drops a landmark in view (sparsification).
 /// - It recovers the mean with a condensation tree (tree/), or with rigid groups of landmarks (groups/).

@@ -48,7 +48,8 @@ void StartFrame::add_to(Eigen::Ref<Eigen::MatrixXd> covariance, const Eigen::Vec
   Eigen::MatrixXd J(means.size(), 3);
   J.topRows<3>().setIdentity();
   J.topRows<2>() = moved(means.head<2>());
-  for (Eigen::Index row = 3; row < means.size(); row += 2) J.middleRows<2>(row) = moved(means.segment<2>(row));
+  for (Eigen::Index row = 3; row < means.size(); row += 2)
+    J.middleRows<2>(row) = moved(means.segment<2>(row));
   covariance += squared(outer_factor_ * J.transpose());
 }
 

@@ -1,6 +1,8 @@
 // The dense matrix of any filter of the library, as a reference for the filter's own answers.
 #pragma once
 
+#include <vector>
+
 #include "dense_oracle.hpp"
 #include "seif/dense/eif.hpp"
 #include "seif/dense/ekf.hpp"
