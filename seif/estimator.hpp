@@ -114,8 +114,8 @@ class Estimator {
   virtual void couplings(LandmarkId /*of*/, std::vector<Coupling>& out) const { out.clear(); }
 
   /// Off the live path, at any cost: the whole matrix of belief_matrix(), with rows [x y theta | landmarks in
-  /// the order of map()]. (3+2N x 3+2N), symmetric; empty for BeliefMatrix::none. A filter that estimates in the
-  /// frame of its start leaves out of an information matrix what the start is uncertain of (start_frame).
+  /// the order of map()]. (3+2N x 3+2N), symmetric; empty for BeliefMatrix::none. `seif` leaves
+  /// the uncertainty of the start out of it (start_frame).
   virtual Eigen::MatrixXd whole_belief_matrix() const { return {}; }
 
   /// Off the live path, at any cost: the whole map, in the order in which the landmarks joined it.

@@ -55,7 +55,7 @@ struct SeifOptions {
 ///   corrected pose.
 /// - It takes the null space of its Jacobians from first estimates, so that it does not learn what nothing
 ///   observes.
-/// - It estimates in the frame of its start, and adds what the start is uncertain of to its covariances
+/// - It estimates in the frame of its start, and adds the uncertainty of the start to its covariances
 ///   (start_frame).
 /// - It counts what an observation lacks in linearity as noise.
 /// - It sparsifies by the gauge-free rule, in bursts, and never drops a landmark in view (sparsification).

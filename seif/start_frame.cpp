@@ -19,12 +19,14 @@ auto squared(const Matrix& X) {
 
 StartFrame::StartFrame(const PoseEstimate& start) : inner_(start) {
   const Eigen::Matrix3d& Sigma = start.covariance;
-  if (Sigma.llt().info() != Eigen::Success)
+  const Eigen::LLT<Eigen::Matrix3d> llt(Sigma);
+  if (llt.info() != Eigen::Success)
     throw std::invalid_argument("the covariance of the start estimate is not positive definite");
-  const Eigen::LLT<Eigen::Matrix3d> sum(Sigma + D * D * Eigen::Matrix3d::Identity());
-  outer_factor_ = sum.matrixL().solve(Sigma);
-  inner_.covariance = D * D * sum.solve(Sigma);  // D^2 (Sigma + D^2)^-1 Sigma
-  inner_.covariance = (0.5 * (inner_.covariance + inner_.covariance.transpose())).eval();
+  const auto I = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d L = llt.matrixL();
+  // L (I + L' L / D^2)^-1 L': positive definite to rounding, however unlike the standard deviations are
+  inner_.covariance = squared(Eigen::LLT<Eigen::Matrix3d>(I + squared(L / D)).matrixL().solve(L.transpose()));
+  outer_factor_ = Eigen::LLT<Eigen::Matrix3d>(Sigma + D * D * I).matrixL().solve(Sigma);
 }
 
 Eigen::Matrix<double, 2, 3> StartFrame::moved(const Eigen::Vector2d& p_world) const {

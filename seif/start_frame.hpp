@@ -1,7 +1,7 @@
-// The frame of the start. Robot and map turn and move with the start as one, and no observation tells how far.
-// So a filter can estimate as if it knew its start, and add the uncertainty of the start to the covariances that
-// it returns. A linear filter that holds this uncertainty itself may turn its whole map by it. A turn by epsilon
-// along a straight line, which is all that a linear filter knows, enlarges the map by epsilon^2 / 2.
+// The frame of the start. Robot and map turn and move with the start as one, and no observation tells how
+// far. So a filter can estimate as if it knew its start, and add the uncertainty of the start to the
+// covariances that it returns. A linear filter that holds this uncertainty itself may turn its whole map. It
+// turns along a straight line, not along a circle, so a turn by epsilon enlarges the map by epsilon^2 / 2.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace seif {
 
-/// Splits the uncertainty of a start, with covariance Sigma, into an inner part for the filter and an outer part:
+/// Splits the covariance Sigma of a start into an inner part, which the filter starts with, and an outer part:
 ///   inner = (Sigma^-1 + D^-2)^-1,  outer = Sigma - inner = Sigma (Sigma + D^2)^-1 Sigma.
 /// D is a millimetre and a milliradian: nothing for a map, and not so little that rounding would matter. Both
 /// parts are positive semidefinite for every Sigma.
@@ -26,7 +26,7 @@ class StartFrame {
   Eigen::Matrix3d of_pose(const Pose2& pose) const;
   /// What it adds to that of a landmark at p_world [m]. (2 x 2)
   Eigen::Matrix2d of_point(const Eigen::Vector2d& p_world) const;
-  /// What it adds to the joint covariance of [pose | landmarks], to `covariance` (3+2m x 3+2m). `means` (3+2m) are
+  /// Adds it to the joint covariance of [pose | landmarks] (3+2m x 3+2m). `means` (3+2m) are
   /// [x y theta | p_world_landmark ...] [m, rad].
   void add_to(Eigen::Ref<Eigen::MatrixXd> covariance, const Eigen::VectorXd& means) const;
 

@@ -22,8 +22,8 @@ Eigen::MatrixXd inverse_of(const LiveEstimator& estimator, const Eigen::MatrixXd
   return llt.solve(Eigen::MatrixXd::Identity(M.rows(), M.cols()));
 }
 
-/// Of a filter that keeps an information matrix. Not simply its inverse: a filter may leave out of it what the
-/// start is uncertain of.
+/// Of a filter that keeps an information matrix. Not simply the inverse of that matrix: `seif` leaves the
+/// uncertainty of the start out of it.
 Eigen::MatrixXd covariance_of(const LiveEstimator& estimator) {
   seif::LandmarkIds all;
   for (const seif::LandmarkEstimate& estimate : estimator.filter->map()) all.push_back(estimate.landmark);

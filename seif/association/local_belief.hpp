@@ -28,8 +28,8 @@ class LocalBelief {
   virtual Eigen::Vector2d mean_of(LandmarkId landmark) const = 0;
   /// Linearised as the measurement update would do it.
   virtual ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const = 0;
-  /// The filter's own covariance of [pose | landmarks], to `out` (3+2m x 3+2m). A filter that estimates in the frame
-  /// of its start leaves out what the start is uncertain of: it changes no expected observation.
+  /// The filter's own covariance of [pose | landmarks], to `out` (3+2m x 3+2m). A filter that estimates in
+  /// the frame of its start leaves out the uncertainty of the start: it changes no expected observation.
   virtual void covariance_with(std::span<const LandmarkId> landmarks,
                                Eigen::Ref<Eigen::MatrixXd> out) const = 0;
 

@@ -10,6 +10,7 @@
 #include "seif/full_state.hpp"
 #include "seif/plain_seif.hpp"
 #include "seif/seif.hpp"
+#include "seif/start_frame.hpp"
 
 namespace seif::test {
 
@@ -27,8 +28,8 @@ inline Eigen::MatrixXd matrix_of(const Estimator& filter) {
   return dynamic_cast<const Ekf&>(filter).Sigma();
 }
 
-/// The covariance of [x y theta | the landmarks of map()] by that matrix. A `seif` leaves out of its matrix what
-/// the start is uncertain of: here that is added as one rigid motion of robot and map.
+/// The covariance of [x y theta | the landmarks of map()] by that matrix. `seif` leaves the uncertainty of the
+/// start out of its matrix: here it is added, as one rigid motion of robot and map.
 inline Eigen::MatrixXd covariance_of(const Estimator& filter, const PoseEstimate& begin) {
   const Eigen::MatrixXd M = matrix_of(filter);
   if (filter.belief_matrix() == BeliefMatrix::covariance) return M;

@@ -105,11 +105,10 @@ std::array<Cell, 2> cells_of(const Noise& noise) {
   return cells;
 }
 
-/// Where seif may be more overconfident than the EKF, as docs/robustness.md says: with wheels that tell nearly
-/// nothing between two scans, or a sensor that is accurate to ten micrometres.
+/// Where both are strongly overconfident, as docs/robustness.md says: with a good sensor, and wheels that tell
+/// nearly nothing between two scans.
 bool is_beyond_use(const Noise& noise) {
-  if (noise.wheel > 10.0) return noise.range <= 0.1 && noise.bearing <= 0.1;
-  return noise.range <= 1e-5 && noise.bearing <= 1e-5;
+  return noise.wheel > 10.0 && noise.range <= 0.1 && noise.bearing <= 0.1;
 }
 
 class NoiseGrid : public testing::TestWithParam<double> {};

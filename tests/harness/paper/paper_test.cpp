@@ -23,7 +23,7 @@ namespace {
 
 using test::read_file;
 
-/// `seif` leaves what its start is uncertain of, three degrees of freedom, out of the information that it keeps.
+/// `seif` leaves the uncertainty of its start, three degrees of freedom, out of its information matrix.
 void expect_inverse_up_to_the_start(const Belief& belief) {
   const Eigen::MatrixXd inverse = belief.information.inverse();
   const Eigen::MatrixXd added = belief.covariance - inverse;

@@ -1,5 +1,6 @@
 // World files with one mistake each. Each gives one message that says where and what, soon, and with little
 // memory.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -36,8 +37,8 @@ std::string repeated(const std::string& text, int times) {
 std::string billion_laughs() {
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
-    const std::string alias = "*a" + std::to_string(i - 1);
-    const std::string name = "a" + std::to_string(i);
+    const std::string alias = fmt::format("*a{}", i - 1);
+    const std::string name = fmt::format("a{}", i);
     bomb += name + ": &" + name + " [" + repeated(alias + ", ", 8) + alias + "]\n";
   }
   return bomb;
