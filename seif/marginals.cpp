@@ -13,10 +13,6 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLLT<Sparse, Eigen::Lower>;  // P A P' = L L'
 
-/// [-] Up to this number of landmarks, computing the blocks one by one costs less than inverting the whole
-/// pattern. This holds even in a long ring, whose elimination tree is as high as the ring is long.
-constexpr std::size_t few_landmarks = 64;
-
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Overwrites L (with A = L L') by A^-1 on the pattern of L, last column first. For i > j, over the rows k of
@@ -93,59 +89,102 @@ Eigen::MatrixXd block_of_inverse(const Factor& factor, std::span<const int> rows
   return W.transpose() * W;
 }
 
-}  // namespace
-
-std::optional<DiagonalBlocksOfInverse> DiagonalBlocksOfInverse::of(const Sparse& A) {
-  const Factor llt(A);
-  if (llt.info() != Eigen::Success) return std::nullopt;
-  DiagonalBlocksOfInverse inverse;
-  inverse.permuted_ = llt.permutationP().indices();
-  inverse.Z_ = llt.matrixL();
-  invert_on_pattern(inverse.Z_);
-  return inverse;
+/// [-] the entries of L that the recursion of invert_on_pattern() reads.
+double work_of_whole_pattern(const Sparse& L) {
+  double work = 0.0;
+  for (int j = 0; j < L.cols(); ++j) {
+    for (Sparse::InnerIterator entry(L, j); entry; ++entry)
+      work += static_cast<double>(L.col(entry.row()).nonZeros());
+  }
+  return work;
 }
 
-double DiagonalBlocksOfInverse::operator()(int i, int j) const {
-  const auto [low, high] = std::minmax(permuted_(i), permuted_(j));
-  const int* rows = Z_.innerIndexPtr();
-  const int* begin = rows + Z_.outerIndexPtr()[low];
-  const int* end = rows + Z_.outerIndexPtr()[low + 1];
-  const int* found = std::lower_bound(begin, end, high);
-  assert(found != end && *found == high);
-  return Z_.valuePtr()[found - rows];
+/// [-] the entries of L that block_of_inverse() reads for these blocks, a path shared by two rows counted twice.
+double work_of_blocks(const Factor& factor, std::span<const std::vector<int>> blocks) {
+  const Sparse& L = factor.matrixL().nestedExpression();
+  Eigen::VectorXd from =
+      Eigen::VectorXd::Zero(L.cols());  // the entries on the path from a column to its root
+  for (int j = static_cast<int>(L.cols()) - 1; j >= 0; --j) {
+    const int above = parent(L, j);
+    from(j) = static_cast<double>(L.col(j).nonZeros()) + (above >= 0 ? from(above) : 0.0);
+  }
+  double work = 0.0;
+  for (const std::vector<int>& rows : blocks) {
+    for (const int row : rows) work += from(factor.permutationP().indices()(row));
+  }
+  return work;
 }
 
-std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
-                                                              std::span<const std::vector<int>> blocks) {
-  const Factor factor(A);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  Eigen::VectorXi index_of = Eigen::VectorXi::Constant(A.rows(), -1);
+std::vector<Eigen::MatrixXd> one_by_one(const Factor& factor, std::span<const std::vector<int>> blocks) {
+  Eigen::VectorXi index_of = Eigen::VectorXi::Constant(factor.rows(), -1);
   std::vector<Eigen::MatrixXd> inverse;
   inverse.reserve(blocks.size());
   for (const std::vector<int>& rows : blocks) inverse.push_back(block_of_inverse(factor, rows, index_of));
   return inverse;
 }
 
+/// The entry (i, j) of the inverse that Z holds. It must lie on Z's pattern.
+double entry_on_pattern(const Sparse& Z, const Eigen::VectorXi& permuted, int i, int j) {
+  const auto [low, high] = std::minmax(permuted(i), permuted(j));
+  const int* rows = Z.innerIndexPtr();
+  const int* begin = rows + Z.outerIndexPtr()[low];
+  const int* end = rows + Z.outerIndexPtr()[low + 1];
+  const int* found = std::lower_bound(begin, end, high);
+  assert(found != end && *found == high);
+  return Z.valuePtr()[found - rows];
+}
+
+Eigen::MatrixXd block_on_pattern(const Sparse& Z, const Eigen::VectorXi& permuted,
+                                 std::span<const int> rows) {
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd block(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j)
+      block(i, j) =
+          entry_on_pattern(Z, permuted, rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
+  }
+  return block;
+}
+
+/// The blocks from the inverse on the whole pattern.
+std::vector<Eigen::MatrixXd> all_at_once(const Factor& factor, std::span<const std::vector<int>> blocks) {
+  Sparse Z = factor.matrixL();
+  invert_on_pattern(Z);
+  std::vector<Eigen::MatrixXd> inverse;
+  inverse.reserve(blocks.size());
+  for (const std::vector<int>& rows : blocks)
+    inverse.push_back(block_on_pattern(Z, factor.permutationP().indices(), rows));
+  return inverse;
+}
+
+}  // namespace
+
+std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
+                                                              std::span<const std::vector<int>> blocks) {
+  const Factor factor(A);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return one_by_one(factor, blocks);
+}
+
+std::optional<std::vector<Eigen::MatrixXd>> diagonal_blocks_of_inverse(
+    const Sparse& A, std::span<const std::vector<int>> blocks) {
+  const Factor factor(A);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Sparse& L = factor.matrixL().nestedExpression();
+  if (work_of_blocks(factor, blocks) < work_of_whole_pattern(L)) return one_by_one(factor, blocks);
+  return all_at_once(factor, blocks);
+}
+
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
-  const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state.find(id).value()); };
-  MarginalCovariances marginals;
-  if (landmarks.size() <= few_landmarks &&
-      landmarks.size() < static_cast<std::size_t>(state.landmark_count())) {
-    std::vector<std::vector<int>> blocks = {{0, 1, 2}};
-    for (const LandmarkId landmark : landmarks) blocks.push_back({row_of(landmark), row_of(landmark) + 1});
-    const auto Sigma = blocks_of_inverse(full_Omega(state), blocks);
-    if (!Sigma) return std::nullopt;
-    marginals.pose = Sigma->front();
-    marginals.landmarks.assign(Sigma->begin() + 1, Sigma->end());
-    return marginals;
+  std::vector<std::vector<int>> blocks = {{0, 1, 2}};
+  for (const LandmarkId landmark : landmarks) {
+    const int row = InformationState::row_of(state.find(landmark).value());
+    blocks.push_back({row, row + 1});
   }
-  const std::optional<DiagonalBlocksOfInverse> Sigma = DiagonalBlocksOfInverse::of(full_Omega(state));
+  const auto Sigma = diagonal_blocks_of_inverse(full_Omega(state), blocks);
   if (!Sigma) return std::nullopt;
-  marginals.pose = Sigma->block<3>(0);
-  for (const LandmarkId landmark : landmarks)
-    marginals.landmarks.push_back(Sigma->block<2>(row_of(landmark)));
-  return marginals;
+  return MarginalCovariances{.pose = Sigma->front(), .landmarks = {Sigma->begin() + 1, Sigma->end()}};
 }
 
 std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const InformationState& state,

@@ -13,36 +13,17 @@
 
 namespace seif {
 
-/// The entries of A^-1 on the pattern of its Cholesky factor; blocks on the diagonal can be read. Takahashi's
-/// recursion: Erisman, Tinney, "On computing certain elements of the inverse of a sparse matrix", CACM 1975.
-class DiagonalBlocksOfInverse {
- public:
-  /// `A` is symmetric, its lower triangle given. Nothing if it is not positive definite.
-  static std::optional<DiagonalBlocksOfInverse> of(const Eigen::SparseMatrix<double>& A);
-
-  /// (A^-1)_ij. The entry A_ij must be stored, zero or not.
-  double operator()(int i, int j) const;
-
-  /// The block of A^-1 on the diagonal whose first row is `row`.
-  template <int size>
-  Eigen::Matrix<double, size, size> block(int row) const {
-    Eigen::Matrix<double, size, size> block;
-    for (int i = 0; i < size; ++i) {
-      for (int j = 0; j < size; ++j) block(i, j) = (*this)(row + i, row + j);
-    }
-    return block;
-  }
-
- private:
-  Eigen::SparseMatrix<double> Z_;  // lower triangle, permuted
-  Eigen::VectorXi permuted_;       // [-] the permuted row of row i of A
-};
-
 /// For each block: A^-1 at the block's rows and the same columns. Takes one factorisation, and for each of
 /// these rows the path up the elimination tree. `A` is symmetric, its lower triangle given. Nothing if it is
 /// not positive definite.
 std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Eigen::SparseMatrix<double>& A,
                                                               std::span<const std::vector<int>> blocks);
+
+/// The same for blocks of which every entry of `A` is stored, zero or not. Where it is less work, it first
+/// inverts on the whole pattern of the factor, by Takahashi's recursion: Erisman, Tinney, "On computing certain
+/// elements of the inverse of a sparse matrix", CACM 1975.
+std::optional<std::vector<Eigen::MatrixXd>> diagonal_blocks_of_inverse(
+    const Eigen::SparseMatrix<double>& A, std::span<const std::vector<int>> blocks);
 
 /// The rows of [x y theta m1x m1y ...] of which a group's joint covariance consists, in its order.
 template <class RowOf>

@@ -78,6 +78,8 @@ void add_options(CLI::App& command, StressArguments& arguments) {
                   "Types of estimators; options by --set estimators.NAME")
       ->delimiter(',')
       ->capture_default_str();
+  command.add_option("--reference", plan.reference,
+                     "An estimator for the map errors to be compared with: batch, the least-squares optimum");
   command.add_option("--density", plan.world.density, "Landmarks for each square metre")
       ->check(number_between(0.01, 0.3))
       ->capture_default_str();
@@ -93,7 +95,7 @@ void add_options(CLI::App& command, StressArguments& arguments) {
       ->check(one_of({stress_pattern_names.begin(), stress_pattern_names.end()}))
       ->capture_default_str();
   command.add_option("--limit", arguments.limits,
-                     "The most landmarks for an estimator: ekf=5000 (the default), eif=500 (the default)");
+                     "The most landmarks for an estimator: ekf=5000, eif=500, batch=50000 (the defaults)");
   command
       .add_option("--slowest", plan.slowest_ms,
                   "What an update may take in a warm start before its estimator is given up [ms]")
@@ -117,6 +119,7 @@ void add_stress(CommandLine line) {
       "Examples:\n"
       "  seifbed stress\n"
       "  seifbed stress --landmarks 1000,100000 --updates 5000 --estimators seif\n"
+      "  seifbed stress --landmarks 10000 --estimators seif --reference batch\n"
       "  seifbed stress --pattern forest --set estimators.seif.theta_x=16\n"
       "  seifbed stress --landmarks 100,1000 --json | jq .slopes\n"
       "Each filter first maps its world with the engine without contacts; then the same filter goes on live\n"

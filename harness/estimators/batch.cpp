@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "seif/marginals.hpp"
 #include "seif/models.hpp"
 
 namespace harness {
@@ -56,18 +57,16 @@ int Batch::landmark_number(seif::LandmarkId landmark) {
   return slam_.landmark_count++;
 }
 
-const Batch::Solved& Batch::solved() const {
+const FullSlamOptimum& Batch::solved() const {
   if (solved_) return *solved_;
   std::vector<Eigen::Vector2d> landmarks(ids_.size());
   for (const seif::LandmarkEstimate& estimate : guide_->map())
     landmarks.at(static_cast<std::size_t>(index_.find(estimate.landmark).value())) = estimate.mean;
-  Solved solved{optimum(slam_, poses_on_map(slam_, landmarks), landmarks), std::nullopt};
-  solved.Sigma = seif::DiagonalBlocksOfInverse::of(solved.optimum.Omega);
-  return solved_.emplace(std::move(solved));
+  return solved_.emplace(optimum(slam_, poses_on_map(slam_, landmarks), landmarks));
 }
 
 seif::Pose2 Batch::pose() const {
-  return solved_ ? solved_->optimum.poses.back() * since_last_pose_.T_previous_current : guide_->pose();
+  return solved_ ? solved_->poses.back() * since_last_pose_.T_previous_current : guide_->pose();
 }
 
 seif::Counts Batch::counts() const {
@@ -93,22 +92,23 @@ void Batch::landmarks(std::span<const seif::LandmarkId> landmarks,
 std::vector<seif::LandmarkEstimate> Batch::map() const {
   std::vector<seif::LandmarkEstimate> map;
   map.reserve(ids_.size());
-  for (std::size_t i = 0; i < ids_.size(); ++i) map.push_back({ids_[i], solved().optimum.landmarks[i]});
+  for (std::size_t i = 0; i < ids_.size(); ++i) map.push_back({ids_[i], solved().landmarks[i]});
   return map;
 }
 
 std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
     std::span<const seif::LandmarkId> landmarks) const {
-  const Solved& now = solved();
-  if (!now.Sigma) return std::nullopt;
-  Eigen::MatrixXd pose = now.Sigma->block<3>(slam_.row_of_pose(slam_.pose_count() - 1));
-  move_pose(pose, now.optimum.poses.back(), since_last_pose_);
-  seif::MarginalCovariances marginals{.pose = pose, .landmarks = {}};
-  marginals.landmarks.reserve(landmarks.size());
+  const FullSlamOptimum& now = solved();
+  const int last_pose = slam_.row_of_pose(slam_.pose_count() - 1);
+  std::vector<std::vector<int>> blocks = {{last_pose, last_pose + 1, last_pose + 2}};
   for (const seif::LandmarkId landmark : landmarks) {
-    marginals.landmarks.push_back(now.Sigma->block<2>(slam_.row_of_landmark(index_.find(landmark).value())));
+    const int row = slam_.row_of_landmark(index_.find(landmark).value());
+    blocks.push_back({row, row + 1});
   }
-  return marginals;
+  auto Sigma = seif::diagonal_blocks_of_inverse(now.Omega, blocks);
+  if (!Sigma) return std::nullopt;
+  move_pose(Sigma->front(), now.poses.back(), since_last_pose_);
+  return seif::MarginalCovariances{.pose = Sigma->front(), .landmarks = {Sigma->begin() + 1, Sigma->end()}};
 }
 
 std::optional<std::vector<Eigen::MatrixXd>> Batch::joint_covariances(
@@ -120,16 +120,16 @@ std::optional<std::vector<Eigen::MatrixXd>> Batch::joint_covariances(
         group, [&](seif::LandmarkId id) { return slam_.row_of_landmark(index_.find(id).value()); }));
     std::iota(rows.begin(), rows.begin() + 3, slam_.row_of_pose(slam_.pose_count() - 1));
   }
-  auto joint = seif::blocks_of_inverse(solved_->optimum.Omega, blocks);
+  auto joint = seif::blocks_of_inverse(solved_->Omega, blocks);
   if (!joint) return std::nullopt;
-  for (Eigen::MatrixXd& Sigma : *joint) move_pose(Sigma, solved_->optimum.poses.back(), since_last_pose_);
+  for (Eigen::MatrixXd& Sigma : *joint) move_pose(Sigma, solved_->poses.back(), since_last_pose_);
   return joint;
 }
 
 std::vector<seif::Pose2> Batch::trajectory() const {
   std::vector<seif::Pose2> poses;
   for (const ScanPose& scan : scan_poses_)
-    poses.push_back(solved().optimum.poses[static_cast<std::size_t>(scan.pose)] * scan.T_pose_robot);
+    poses.push_back(solved().poses[static_cast<std::size_t>(scan.pose)] * scan.T_pose_robot);
   return poses;
 }
 

@@ -9,7 +9,6 @@
 #include "harness/estimators/full_slam.hpp"
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
-#include "seif/marginals.hpp"
 #include "seif/registry.hpp"
 
 namespace harness {
@@ -49,12 +48,6 @@ class Batch final : public seif::Estimator {
   std::vector<seif::Pose2> trajectory() const;
 
  private:
-  /// The solution; it is dropped when new data arrives.
-  struct Solved {
-    FullSlamOptimum optimum;
-    std::optional<seif::DiagonalBlocksOfInverse> Sigma;  // empty: not positive definite
-  };
-
   /// The robot's pose at a scan.
   struct ScanPose {
     int pose = 0;  // number of the last pose before the scan
@@ -62,7 +55,7 @@ class Batch final : public seif::Estimator {
   };
 
   int landmark_number(seif::LandmarkId landmark);
-  const Solved& solved() const;
+  const FullSlamOptimum& solved() const;
 
   std::unique_ptr<seif::Estimator> guide_;
   seif::Pose2 T_robot_sensor_;
@@ -71,8 +64,8 @@ class Batch final : public seif::Estimator {
   std::vector<ScanPose> scan_poses_;
   std::vector<seif::LandmarkId> ids_;  // by number
   seif::LandmarkIndex index_;
-  int active_landmarks_ = 0;  // [-] in the latest scan
-  mutable std::optional<Solved> solved_;
+  int active_landmarks_ = 0;                       // [-] in the latest scan
+  mutable std::optional<FullSlamOptimum> solved_;  // dropped when new data arrives
 };
 
 /// The estimator type `batch`. Its guide is made from a type of `registry`.

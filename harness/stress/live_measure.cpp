@@ -30,7 +30,7 @@ LivePlace live_place(const StressPlan& plan, const worlds::World& world, std::in
   LivePlace place{.world = world, .updates = updates, .folder = plan.folder / fmt::format("{}", number + 1)};
   place.world.duration = static_cast<double>(updates) / world.landmark_sensor.rate;
   if (plan.world.pattern == StressPattern::forest) place.world.drive.mode = worlds::DriveMode::explore;
-  place.is_scored = number + 1 == plan.places && plan.world.landmarks <= plan.most_scored;
+  place.is_scored = number + 1 == plan.places;
   place.quiet = plan.quiet;
   return place;
 }
@@ -78,12 +78,16 @@ std::optional<double> aligned_rmse(const seif::Estimator& filter, const worlds::
   return score_points(pairs).rmse_aligned;
 }
 
-StressEstimator described(const LiveEstimator& estimator, LiveSamples samples, const worlds::World& world) {
+StressEstimator described(const StressPlan& plan, const LiveEstimator& estimator, LiveSamples samples,
+                          const worlds::World& world) {
   StressEstimator result;
   result.name = estimator.name;
   result.skipped = estimator.failure;
-  result.update_us = percentiles(samples.update_us);
-  result.blocks = percentiles(samples.blocks);
+  result.is_reference = estimator.name == plan.reference;
+  if (!result.is_reference) {
+    result.update_us = percentiles(samples.update_us);
+    result.blocks = percentiles(samples.blocks);
+  }
   if (!estimator.failure.empty()) return result;
   result.landmarks = static_cast<std::int64_t>(estimator.filter->map().size());
   result.bytes = static_cast<double>(estimator.filter->memory_bytes());
@@ -91,6 +95,16 @@ StressEstimator described(const LiveEstimator& estimator, LiveSamples samples, c
   result.nees_pose = samples.last.nees_pose;
   result.nees_landmark = samples.last.nees_landmark;
   return result;
+}
+
+/// Fills in what the others' map errors are over that of the reference.
+void compare_with_reference(std::vector<StressEstimator>& estimators) {
+  const auto reference = std::ranges::find(estimators, true, &StressEstimator::is_reference);
+  if (reference == estimators.end() || !reference->map_rmse) return;
+  for (StressEstimator& estimator : estimators) {
+    if (!estimator.is_reference && estimator.map_rmse)
+      estimator.over_reference = *estimator.map_rmse / *reference->map_rmse;
+  }
 }
 
 }  // namespace
@@ -113,8 +127,9 @@ void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart&
     LiveSamples samples = measure_places(its_plan, world, warm, alone, stop);
     describe(samples, world.landmark_sensor.rate, row);
     if (!alone.estimators.empty())
-      measured.push_back(described(alone.estimators.front(), std::move(samples), world));
+      measured.push_back(described(plan, alone.estimators.front(), std::move(samples), world));
   }
+  compare_with_reference(measured);
   row.estimators.insert(row.estimators.begin(), measured.rbegin(), measured.rend());
 }
 

@@ -33,10 +33,17 @@ double length_of(const std::vector<Eigen::Vector2d>& round) {
   return length;
 }
 
+/// With the reference among its estimators, if there is one.
+StressWorldSpec with_reference(StressWorldSpec spec, const std::string& reference) {
+  const bool is_there = std::ranges::find(spec.estimators, reference) != spec.estimators.end();
+  if (!reference.empty() && !is_there) spec.estimators.push_back(reference);
+  return spec;
+}
+
 /// Writes the world file to the row's folder and reads it. The resolved file then replaces it.
 worlds::World load(const StressPlan& plan, const seif::Registry& registry) {
   const std::filesystem::path file = plan.folder / "world.yaml";
-  write_whole_file(file, stress_world(plan.world));
+  write_whole_file(file, stress_world(with_reference(plan.world, plan.reference)));
   worlds::LoadResult loaded =
       worlds::load_world(file, plan.overrides, estimator_schemas(registry), program_version());
   if (!loaded.world) throw BadInput(worlds::to_string(loaded.problems.front()));

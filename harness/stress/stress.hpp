@@ -25,8 +25,11 @@ struct StressPlan {
   /// place depends on how the tree of the map happens to be divided there.
   std::int64_t places = 10;
   double slowest_ms = 50.0;  // [ms] limit of the mean update time in a warm start
-  std::map<std::string, std::int64_t> most_landmarks = {{"ekf", 5'000}, {"eif", 500}};  // by estimator
-  std::int64_t most_scored = 20'000;   // [-] landmarks; larger maps are not scored
+  std::map<std::string, std::int64_t> most_landmarks = {
+      {"ekf", 5'000}, {"eif", 500}, {"batch", 50'000}};  // by estimator
+  /// An estimator for the others' errors to be compared with. It runs on the same stream, and is not timed.
+  /// Empty: none.
+  std::string reference;
   std::vector<std::string> overrides;  // for the world files
   std::filesystem::path folder;        // it gets a folder for each row, and in it one for each estimator
   bool quiet = false;
@@ -36,14 +39,16 @@ struct StressPlan {
 /// An estimator with a full map.
 struct StressEstimator {
   std::string name;
-  std::string skipped;  // why it did not run; empty: it did run
+  std::string skipped;        // why it did not run; empty: it did run
+  bool is_reference = false;  // the plan's reference: it has no times and no blocks
   std::int64_t landmarks = 0;
   std::optional<Percentiles> update_us;
   std::optional<Percentiles> blocks;
-  double bytes = 0.0;                   // [byte] of the estimator's state
-  std::optional<double> map_rmse;       // [m] aligned
-  std::optional<double> nees_pose;      // [-]
-  std::optional<double> nees_landmark;  // [-]
+  double bytes = 0.0;                    // [byte] of the estimator's state
+  std::optional<double> map_rmse;        // [m] aligned
+  std::optional<double> over_reference;  // [-] map_rmse divided by that of the reference
+  std::optional<double> nees_pose;       // [-]
+  std::optional<double> nees_landmark;   // [-]
 };
 
 /// The results for one number of landmarks.

@@ -30,11 +30,13 @@ double each(std::int64_t count, std::int64_t of) {
 
 Json estimator_json(const StressEstimator& estimator) {
   return {{"skipped", estimator.skipped.empty() ? Json(nullptr) : Json(estimator.skipped)},
+          {"is_reference", estimator.is_reference},
           {"landmarks", estimator.landmarks},
           {"update_us", percentiles_json(estimator.update_us)},
           {"blocks_touched", percentiles_json(estimator.blocks)},
           {"memory_bytes", estimator.bytes},
           {"landmark_rmse_aligned_m", number(estimator.map_rmse)},
+          {"aligned_over_reference", number(estimator.over_reference)},
           {"nees_pose", number(estimator.nees_pose)},
           {"nees_landmark", number(estimator.nees_landmark)}};
 }
@@ -123,14 +125,15 @@ TextRow estimator_row(std::int64_t landmarks, const StressEstimator& estimator) 
           part(estimator.blocks, &Percentiles::p99),
           part(estimator.blocks, &Percentiles::max),
           ran ? number_cell(by_landmark, 0) : "-",
-          number_cell(estimator.map_rmse, 3),
+          number_cell(estimator.map_rmse, 4),
+          number_cell(estimator.over_reference, 2),
           number_cell(estimator.nees_pose, 2),
           number_cell(estimator.nees_landmark, 2)};
 }
 
 std::string estimator_table(const StressResult& result) {
   std::vector<TextRow> table = {{"landmarks", "estimator", "in map", "blocks p50", "p99", "max",
-                                 "[B]/landmark", "aligned [m]", "NEES pose", "NEES map"}};
+                                 "[B]/landmark", "aligned [m]", "x reference", "NEES pose", "NEES map"}};
   std::string skipped;
   for (const StressRow& row : result.rows) {
     for (const StressEstimator& estimator : row.estimators) {

@@ -6,6 +6,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
+
+#include "ring_drive.hpp"
+#include "seif/seif.hpp"
 
 namespace seif {
 namespace {
@@ -48,6 +52,24 @@ TEST(StartFrame, AddsToAJointCovarianceWhatItAddsToItsBlocks) {
   EXPECT_TRUE((joint.block<2, 2>(3, 3).isApprox(frame.of_point({20.0, -3.0}), 1e-12)));
   EXPECT_TRUE((joint.block<2, 2>(5, 5).isApprox(frame.of_point({1.0, 2.0}), 1e-12)));
   EXPECT_EQ(joint, joint.transpose());
+}
+
+TEST(StartFrame, AMapIsTheSameHoweverUncertainItsStart) {
+  test::RingDrive drive(120, 1);
+  EstimatorSetup setup = drive.setup();
+  setup.start.covariance = 0.01 * Eigen::Matrix3d::Identity();
+  Seif sure(setup, {});
+  setup.start.covariance = 9.0 * Eigen::Matrix3d::Identity();
+  Seif unsure(setup, {});
+  for (int i = 2 * drive.steps_for_a_round(); i > 0; --i) {
+    drive.step(sure);
+    unsure.motion_update(drive.odometry());
+    unsure.measurement_update(drive.scan(), test::ignore);
+  }
+  const std::vector<LandmarkEstimate> map = sure.map();
+  const std::vector<LandmarkEstimate> other = unsure.map();
+  ASSERT_EQ(map.size(), 120U);
+  for (std::size_t i = 0; i < map.size(); ++i) EXPECT_LT((map[i].mean - other[i].mean).norm(), 1e-3);
 }
 
 TEST(StartFrame, RefusesACovarianceThatIsNone) {

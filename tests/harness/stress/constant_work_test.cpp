@@ -27,7 +27,6 @@ Work work_with(std::int64_t landmarks) {
   plan.world.estimators = {"seif"};
   plan.updates = 3'000;
   plan.places = 1;  // building a world allocates
-  plan.most_scored = 0;
   plan.folder = folder.path();
   plan.quiet = true;
   long first = 0;

@@ -61,6 +61,7 @@ TEST(StressCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf=many").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --pattern spiral").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators nobody").exit_code, 2);
+  EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators seif --reference nobody").exit_code, 2);
 }
 
 }  // namespace

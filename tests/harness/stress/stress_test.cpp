@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 #include "harness/files/csv_reader.hpp"
@@ -102,6 +103,31 @@ TEST(Stress, SkipsEstimatorsBeyondTheirLimitAndSaysSo) {
   EXPECT_TRUE(ekf->skipped.ends_with(" ms each update with 40 landmarks")) << ekf->skipped;
   EXPECT_FALSE(ekf->update_us);
   EXPECT_NE(stress_tables(plan, result).find("80 landmarks, ekf: skipped above 40"), std::string::npos);
+}
+
+TEST(Stress, TellsHowFarMapsAreFromThatOfAReferenceAndTellsNoTimesOfIt) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.landmarks = {40};
+  const StressRow plain = stress(plan, test::test_registry()).rows.at(0);
+  const TemporaryFolder compared_folder;
+  plan.folder = compared_folder.path();
+  plan.reference = "batch";
+  const StressResult result = stress(plan, test::test_registry());
+  const std::vector<StressEstimator>& estimators = result.rows.at(0).estimators;
+  ASSERT_EQ(estimators.size(), 3U);
+  const StressEstimator& batch = estimators[2];
+  EXPECT_TRUE(batch.is_reference);
+  EXPECT_FALSE(batch.update_us || batch.blocks || batch.over_reference);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(estimators[i].map_rmse, plain.estimators[i].map_rmse) << "a reference changes no other";
+    EXPECT_DOUBLE_EQ(estimators[i].over_reference.value(), *estimators[i].map_rmse / *batch.map_rmse);
+  }
+  EXPECT_NE(stress_tables(plan, result).find("x reference"), std::string::npos);
+  EXPECT_EQ(stress_tables(plan, result).find("batch update"), std::string::npos);
+  const nlohmann::json json = nlohmann::json::parse(to_json(plan, result))["rows"][0]["estimators"];
+  EXPECT_TRUE(json["batch"]["is_reference"]);
+  EXPECT_EQ(json["seif"]["aligned_over_reference"], estimators[0].over_reference.value());
 }
 
 TEST(Stress, GivesUpOnEstimatorsThatTakeTooLongInThisAndInLargerWorlds) {
