@@ -102,8 +102,8 @@ double work_of_whole_pattern(const Sparse& L) {
 /// [-] the entries of L that block_of_inverse() reads for these blocks, a path shared by two rows counted twice.
 double work_of_blocks(const Factor& factor, std::span<const std::vector<int>> blocks) {
   const Sparse& L = factor.matrixL().nestedExpression();
-  Eigen::VectorXd from =
-      Eigen::VectorXd::Zero(L.cols());  // the entries on the path from a column to its root
+  // The entries on the path from each column to its root.
+  Eigen::VectorXd from = Eigen::VectorXd::Zero(L.cols());
   for (int j = static_cast<int>(L.cols()) - 1; j >= 0; --j) {
     const int above = parent(L, j);
     from(j) = static_cast<double>(L.col(j).nonZeros()) + (above >= 0 ? from(above) : 0.0);
@@ -166,25 +166,25 @@ std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Sparse& A,
   return one_by_one(factor, blocks);
 }
 
-std::optional<std::vector<Eigen::MatrixXd>> diagonal_blocks_of_inverse(
-    const Sparse& A, std::span<const std::vector<int>> blocks) {
-  const Factor factor(A);
+std::optional<MarginalCovariances> marginals_of(const Sparse& Omega, int pose_row,
+                                                std::span<const int> landmark_rows) {
+  std::vector<std::vector<int>> blocks = {{pose_row, pose_row + 1, pose_row + 2}};
+  for (const int row : landmark_rows) blocks.push_back({row, row + 1});
+  const Factor factor(Omega);
   if (factor.info() != Eigen::Success) return std::nullopt;
   const Sparse& L = factor.matrixL().nestedExpression();
-  if (work_of_blocks(factor, blocks) < work_of_whole_pattern(L)) return one_by_one(factor, blocks);
-  return all_at_once(factor, blocks);
+  const bool are_few = work_of_blocks(factor, blocks) < work_of_whole_pattern(L);
+  const std::vector<Eigen::MatrixXd> Sigma =
+      are_few ? one_by_one(factor, blocks) : all_at_once(factor, blocks);
+  return MarginalCovariances{.pose = Sigma.front(), .landmarks = {Sigma.begin() + 1, Sigma.end()}};
 }
 
 std::optional<MarginalCovariances> marginals_of(const InformationState& state,
                                                 std::span<const LandmarkId> landmarks) {
-  std::vector<std::vector<int>> blocks = {{0, 1, 2}};
-  for (const LandmarkId landmark : landmarks) {
-    const int row = InformationState::row_of(state.find(landmark).value());
-    blocks.push_back({row, row + 1});
-  }
-  const auto Sigma = diagonal_blocks_of_inverse(full_Omega(state), blocks);
-  if (!Sigma) return std::nullopt;
-  return MarginalCovariances{.pose = Sigma->front(), .landmarks = {Sigma->begin() + 1, Sigma->end()}};
+  std::vector<int> rows;
+  for (const LandmarkId landmark : landmarks)
+    rows.push_back(InformationState::row_of(state.find(landmark).value()));
+  return marginals_of(full_Omega(state), 0, rows);
 }
 
 std::optional<std::vector<Eigen::MatrixXd>> joint_covariances_of(const InformationState& state,

@@ -19,11 +19,13 @@ namespace seif {
 std::optional<std::vector<Eigen::MatrixXd>> blocks_of_inverse(const Eigen::SparseMatrix<double>& A,
                                                               std::span<const std::vector<int>> blocks);
 
-/// The same for blocks of which every entry of `A` is stored, zero or not. Where it is less work, it first
-/// inverts on the whole pattern of the factor, by Takahashi's recursion: Erisman, Tinney, "On computing certain
-/// elements of the inverse of a sparse matrix", CACM 1975.
-std::optional<std::vector<Eigen::MatrixXd>> diagonal_blocks_of_inverse(
-    const Eigen::SparseMatrix<double>& A, std::span<const std::vector<int>> blocks);
+/// The marginals of an information matrix `Omega`, its lower triangle given: of the pose whose first row is
+/// `pose_row`, and of the landmarks whose first rows are `landmark_rows`. The entries of these blocks must be
+/// stored, zero or not. For few landmarks it is blocks_of_inverse(). For many it inverts on the whole pattern of
+/// the factor, by Takahashi's recursion: Erisman, Tinney, "On computing certain elements of the inverse of a
+/// sparse matrix", CACM 1975. Nothing if Omega is not positive definite.
+std::optional<MarginalCovariances> marginals_of(const Eigen::SparseMatrix<double>& Omega, int pose_row,
+                                                std::span<const int> landmark_rows);
 
 /// The rows of [x y theta m1x m1y ...] of which a group's joint covariance consists, in its order.
 template <class RowOf>

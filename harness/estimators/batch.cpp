@@ -99,16 +99,15 @@ std::vector<seif::LandmarkEstimate> Batch::map() const {
 std::optional<seif::MarginalCovariances> Batch::marginal_covariances(
     std::span<const seif::LandmarkId> landmarks) const {
   const FullSlamOptimum& now = solved();
-  const int last_pose = slam_.row_of_pose(slam_.pose_count() - 1);
-  std::vector<std::vector<int>> blocks = {{last_pose, last_pose + 1, last_pose + 2}};
-  for (const seif::LandmarkId landmark : landmarks) {
-    const int row = slam_.row_of_landmark(index_.find(landmark).value());
-    blocks.push_back({row, row + 1});
-  }
-  auto Sigma = seif::diagonal_blocks_of_inverse(now.Omega, blocks);
-  if (!Sigma) return std::nullopt;
-  move_pose(Sigma->front(), now.poses.back(), since_last_pose_);
-  return seif::MarginalCovariances{.pose = Sigma->front(), .landmarks = {Sigma->begin() + 1, Sigma->end()}};
+  std::vector<int> rows;
+  for (const seif::LandmarkId landmark : landmarks)
+    rows.push_back(slam_.row_of_landmark(index_.find(landmark).value()));
+  auto marginals = seif::marginals_of(now.Omega, slam_.row_of_pose(slam_.pose_count() - 1), rows);
+  if (!marginals) return std::nullopt;
+  Eigen::MatrixXd pose = marginals->pose;
+  move_pose(pose, now.poses.back(), since_last_pose_);
+  marginals->pose = pose;
+  return marginals;
 }
 
 std::optional<std::vector<Eigen::MatrixXd>> Batch::joint_covariances(

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,8 +84,7 @@ StressEstimator described(const StressPlan& plan, const LiveEstimator& estimator
   StressEstimator result;
   result.name = estimator.name;
   result.skipped = estimator.failure;
-  result.is_reference = estimator.name == plan.reference;
-  if (!result.is_reference) {
+  if (estimator.name != plan.reference) {
     result.update_us = percentiles(samples.update_us);
     result.blocks = percentiles(samples.blocks);
   }
@@ -97,13 +97,13 @@ StressEstimator described(const StressPlan& plan, const LiveEstimator& estimator
   return result;
 }
 
-/// Fills in what the others' map errors are over that of the reference.
-void compare_with_reference(std::vector<StressEstimator>& estimators) {
-  const auto reference = std::ranges::find(estimators, true, &StressEstimator::is_reference);
-  if (reference == estimators.end() || !reference->map_rmse) return;
+/// Divides the others' map errors by that of the reference.
+void compare_with(const std::string& reference, std::vector<StressEstimator>& estimators) {
+  const auto it = std::ranges::find(estimators, reference, &StressEstimator::name);
+  if (it == estimators.end() || !it->map_rmse) return;
   for (StressEstimator& estimator : estimators) {
-    if (!estimator.is_reference && estimator.map_rmse)
-      estimator.over_reference = *estimator.map_rmse / *reference->map_rmse;
+    if (estimator.name != reference && estimator.map_rmse)
+      estimator.over_reference = *estimator.map_rmse / *it->map_rmse;
   }
 }
 
@@ -129,7 +129,7 @@ void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart&
     if (!alone.estimators.empty())
       measured.push_back(described(plan, alone.estimators.front(), std::move(samples), world));
   }
-  compare_with_reference(measured);
+  compare_with(plan.reference, measured);
   row.estimators.insert(row.estimators.begin(), measured.rbegin(), measured.rend());
 }
 

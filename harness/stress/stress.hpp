@@ -27,8 +27,8 @@ struct StressPlan {
   double slowest_ms = 50.0;  // [ms] limit of the mean update time in a warm start
   std::map<std::string, std::int64_t> most_landmarks = {
       {"ekf", 5'000}, {"eif", 500}, {"batch", 50'000}};  // by estimator
-  /// An estimator for the others' errors to be compared with. It runs on the same stream, and is not timed.
-  /// Empty: none.
+  /// The others' map errors are compared with that of this estimator. It runs on the same stream, and has no
+  /// times and no blocks. Empty: none.
   std::string reference;
   std::vector<std::string> overrides;  // for the world files
   std::filesystem::path folder;        // it gets a folder for each row, and in it one for each estimator
@@ -39,8 +39,7 @@ struct StressPlan {
 /// An estimator with a full map.
 struct StressEstimator {
   std::string name;
-  std::string skipped;        // why it did not run; empty: it did run
-  bool is_reference = false;  // the plan's reference: it has no times and no blocks
+  std::string skipped;  // why it did not run; empty: it did run
   std::int64_t landmarks = 0;
   std::optional<Percentiles> update_us;
   std::optional<Percentiles> blocks;

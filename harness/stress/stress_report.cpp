@@ -30,7 +30,6 @@ double each(std::int64_t count, std::int64_t of) {
 
 Json estimator_json(const StressEstimator& estimator) {
   return {{"skipped", estimator.skipped.empty() ? Json(nullptr) : Json(estimator.skipped)},
-          {"is_reference", estimator.is_reference},
           {"landmarks", estimator.landmarks},
           {"update_us", percentiles_json(estimator.update_us)},
           {"blocks_touched", percentiles_json(estimator.blocks)},
@@ -175,6 +174,7 @@ std::string to_json(const StressPlan& plan, const StressResult& result) {
   json["density_per_m2"] = plan.world.density;
   json["seed"] = plan.world.seed;
   json["places"] = plan.places;
+  json["reference"] = plan.reference.empty() ? Json(nullptr) : Json(plan.reference);
   json["version"] = program_version();
   json["interrupted"] = result.interrupted;
   json["rows"] = Json::array();
