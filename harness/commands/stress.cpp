@@ -18,6 +18,7 @@
 #include "harness/stress/stress_report.hpp"
 #include "harness/terminal/checks.hpp"
 #include "harness/terminal/messages.hpp"
+#include "worlds/suggestion.hpp"
 
 namespace harness {
 
@@ -44,9 +45,26 @@ void read_limits(StressArguments& arguments) {
   }
 }
 
+/// A name must be that of a type, unless --set may give it one; that the loader checks.
+void check_name(const StressArguments& arguments, const seif::Registry& registry, std::string_view option,
+                const std::string& name) {
+  const std::string key = "estimators." + name;
+  const auto may_give_type = [&](const std::string& value) {
+    return value.starts_with("estimators=") || value.starts_with(key + "=") ||
+           value.starts_with(key + ".type=");
+  };
+  if (registry.find(name) != nullptr || std::ranges::any_of(arguments.plan.overrides, may_give_type)) return;
+  std::vector<std::string> names;
+  for (const seif::EstimatorType& known : registry.types()) names.push_back(known.name);
+  throw BadInput(
+      fmt::format("{}: there is no estimator '{}'{}", option, name, worlds::suggestion(name, names)));
+}
+
 int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   StressPlan& plan = arguments.plan;
   read_limits(arguments);
+  for (const std::string& name : arguments.estimators) check_name(arguments, registry, "--estimators", name);
+  if (!plan.reference.empty()) check_name(arguments, registry, "--reference", plan.reference);
   if (plan.places > plan.updates)
     throw BadInput(fmt::format("--places: {} places for {} updates", plan.places, plan.updates));
   const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));

@@ -60,8 +60,31 @@ TEST(StressCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(call(folder, "stress --landmarks 100 --updates 10 --places 11").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --limit ekf=many").exit_code, 2);
   EXPECT_EQ(call(folder, "stress --landmarks 100 --pattern spiral").exit_code, 2);
-  EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators nobody").exit_code, 2);
-  EXPECT_EQ(call(folder, "stress --landmarks 100 --estimators seif --reference nobody").exit_code, 2);
+}
+
+TEST(StressCommand, AnUnknownEstimatorIsNamedAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  const auto errors_of = [&](const std::string& options) {
+    const Called called = call(folder, "stress --landmarks 100 --out out " + options);
+    EXPECT_EQ(called.exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    return called.errors;
+  };
+  EXPECT_NE(
+      errors_of("--estimators sef").find("--estimators: there is no estimator 'sef' (did you mean 'seif'?)"),
+      std::string::npos);
+  EXPECT_NE(errors_of("--estimators seif --reference bath")
+                .find("--reference: there is no estimator 'bath' (did you mean 'batch'?)"),
+            std::string::npos);
+}
+
+TEST(StressCommand, ANameThatGetsATypeIsAnEstimator) {
+  const TemporaryFolder folder;
+  const Called called = call(folder,
+                             "stress --landmarks 100 --estimators mine --updates 10 --places 1 --json "
+                             "--set estimators.mine.type=seif");
+  ASSERT_EQ(called.exit_code, 0) << called.errors;
+  EXPECT_EQ(nlohmann::json::parse(called.output)["rows"][0]["estimators"]["mine"]["landmarks"], 100);
 }
 
 }  // namespace
