@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "harness/commands/commands.hpp"
+#include "harness/estimators/registry.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/stress/stress_plot.hpp"
 #include "harness/stress/stress_report.hpp"
 #include "harness/terminal/checks.hpp"
 #include "harness/terminal/messages.hpp"
-#include "worlds/suggestion.hpp"
 
 namespace harness {
 
@@ -45,19 +45,16 @@ void read_limits(StressArguments& arguments) {
   }
 }
 
-/// A name must be that of a type, unless --set may give it one; that the loader checks.
+/// Refuses a name that is no type of estimator. A name that --set describes passes: the loader checks it.
 void check_name(const StressArguments& arguments, const seif::Registry& registry, std::string_view option,
                 const std::string& name) {
   const std::string key = "estimators." + name;
-  const auto may_give_type = [&](const std::string& value) {
+  const auto describes_it = [&](const std::string& value) {
     return value.starts_with("estimators=") || value.starts_with(key + "=") ||
            value.starts_with(key + ".type=");
   };
-  if (registry.find(name) != nullptr || std::ranges::any_of(arguments.plan.overrides, may_give_type)) return;
-  std::vector<std::string> names;
-  for (const seif::EstimatorType& known : registry.types()) names.push_back(known.name);
-  throw BadInput(
-      fmt::format("{}: there is no estimator '{}'{}", option, name, worlds::suggestion(name, names)));
+  if (registry.find(name) == nullptr && std::ranges::none_of(arguments.plan.overrides, describes_it))
+    throw no_such_estimator(registry, option, name);
 }
 
 int stress_worlds(StressArguments arguments, const seif::Registry& registry) {

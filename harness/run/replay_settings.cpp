@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/estimators/estimator_schemas.hpp"
+#include "harness/estimators/registry.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/readers/open_log.hpp"
 #include "harness/run/overrides.hpp"
@@ -49,8 +50,7 @@ void select_estimators(worlds::Node& document, const std::vector<std::string>& n
   if (names.empty()) return;
   for (const std::string& name : names) {
     if (worlds::find_path(document, "estimators." + name) != nullptr) continue;
-    if (registry.find(name) == nullptr)
-      throw BadInput(fmt::format("--estimators: there is no estimator '{}'", name));
+    if (registry.find(name) == nullptr) throw no_such_estimator(registry, "--estimators", name);
     worlds::apply_override(document, fmt::format("estimators.{}={{}}", name), problems);
   }
   worlds::Node* estimators = document.find("estimators");
