@@ -62,6 +62,8 @@ int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   read_limits(arguments);
   for (const std::string& name : arguments.estimators) check_name(arguments, registry, "--estimators", name);
   if (!plan.reference.empty()) check_name(arguments, registry, "--reference", plan.reference);
+  for (const std::string& limit : arguments.limits)
+    check_name(arguments, registry, "--limit", limit.substr(0, limit.find('=')));
   if (plan.places > plan.updates)
     throw BadInput(fmt::format("--places: {} places for {} updates", plan.places, plan.updates));
   const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));

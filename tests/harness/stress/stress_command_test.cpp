@@ -80,6 +80,9 @@ TEST(StressCommand, AnUnknownEstimatorIsNamedAndNothingIsWritten) {
   EXPECT_NE(errors_of("--estimators seif --reference bath")
                 .find("--reference: there is no estimator 'bath' (did you mean 'batch'?)"),
             std::string::npos);
+  EXPECT_NE(errors_of("--estimators seif --limit efk=5")
+                .find("--limit: there is no estimator 'efk' (did you mean 'ekf'?)"),
+            std::string::npos);
 }
 
 TEST(StressCommand, ANameThatGetsATypeIsAnEstimator) {
