@@ -32,19 +32,6 @@ struct StressArguments {
   OutputArguments output;
 };
 
-void read_limits(StressArguments& arguments) {
-  for (const std::string& limit : arguments.limits) {
-    const std::size_t equals = limit.find('=');
-    const std::string_view number = std::string_view(limit).substr(equals + 1);  // npos + 1 is 0
-    std::int64_t landmarks = -1;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), landmarks);
-    const bool is_whole = error == std::errc() && end == number.data() + number.size();
-    if (equals == std::string::npos || equals == 0 || !is_whole || landmarks < 0)
-      throw BadInput(fmt::format("--limit: '{}' is not like ekf=2000", limit));
-    arguments.plan.most_landmarks[limit.substr(0, equals)] = landmarks;
-  }
-}
-
 /// Refuses a name that is no type of estimator. A name that --set describes passes: the loader checks it.
 void check_name(const StressArguments& arguments, const seif::Registry& registry, std::string_view option,
                 const std::string& name) {
@@ -57,13 +44,26 @@ void check_name(const StressArguments& arguments, const seif::Registry& registry
     throw no_such_estimator(registry, option, name);
 }
 
+void read_limits(StressArguments& arguments, const seif::Registry& registry) {
+  for (const std::string& limit : arguments.limits) {
+    const std::size_t equals = limit.find('=');
+    const std::string_view number = std::string_view(limit).substr(equals + 1);  // npos + 1 is 0
+    std::int64_t landmarks = -1;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), landmarks);
+    const bool is_whole = error == std::errc() && end == number.data() + number.size();
+    if (equals == std::string::npos || equals == 0 || !is_whole || landmarks < 0)
+      throw BadInput(fmt::format("--limit: '{}' is not like ekf=2000", limit));
+    const std::string name = limit.substr(0, equals);
+    check_name(arguments, registry, "--limit", name);
+    arguments.plan.most_landmarks[name] = landmarks;
+  }
+}
+
 int stress_worlds(StressArguments arguments, const seif::Registry& registry) {
   StressPlan& plan = arguments.plan;
-  read_limits(arguments);
+  read_limits(arguments, registry);
   for (const std::string& name : arguments.estimators) check_name(arguments, registry, "--estimators", name);
   if (!plan.reference.empty()) check_name(arguments, registry, "--reference", plan.reference);
-  for (const std::string& limit : arguments.limits)
-    check_name(arguments, registry, "--limit", limit.substr(0, limit.find('=')));
   if (plan.places > plan.updates)
     throw BadInput(fmt::format("--places: {} places for {} updates", plan.places, plan.updates));
   const auto* pattern = std::ranges::find(stress_pattern_names, std::string_view(arguments.pattern));
