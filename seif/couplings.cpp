@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "seif/start_points.hpp"
+
 namespace seif {
 namespace {
 
@@ -15,6 +17,7 @@ using std::max, std::min;
 template <class Block, class RowDiagonal, class ColumnDiagonal>
 void append(LandmarkId other, const Block& M_ab, const RowDiagonal& M_aa, const ColumnDiagonal& M_bb,
             std::vector<Coupling>& out) {
+  if (is_start_point(other)) return;
   double strength = 0.0;
   for (Eigen::Index i = 0; i < M_ab.rows(); ++i) {
     for (Eigen::Index j = 0; j < M_ab.cols(); ++j) {
@@ -26,12 +29,18 @@ void append(LandmarkId other, const Block& M_ab, const RowDiagonal& M_aa, const 
   if (strength > 0.0) out.push_back({.other = other, .strength = strength});
 }
 
+/// Of all of the window's information, frozen or not.
+Eigen::Matrix2d block_of(const InformationState& state, int row, int col) {
+  return state.Omega().block<2, 2>(row, col) + state.frozen().block<2, 2>(row, col);
+}
+
 void append_links_of_robot(const InformationState& state, std::vector<Coupling>& out) {
   const auto Omega = state.Omega();
   for (int position = 0; position < state.active_count(); ++position) {
     const int row = InformationState::row_of(position);
-    append(state.id(state.active(position)), Omega.block<2, 3>(row, 0), Omega.diagonal().segment<2>(row),
-           Omega.diagonal().head<3>(), out);
+    const Eigen::Vector2d diagonal = block_of(state, row, row).diagonal();
+    append(state.id(state.active(position)), Omega.block<2, 3>(row, 0), diagonal, Omega.diagonal().head<3>(),
+           out);
   }
 }
 
@@ -39,15 +48,16 @@ void append_links_of_robot(const InformationState& state, std::vector<Coupling>&
 void append_links_in_window(const InformationState& state, int position, std::vector<Coupling>& out) {
   const auto Omega = state.Omega();
   const int row = InformationState::row_of(position);
-  append(no_landmark, Omega.block<2, 3>(row, 0), Omega.diagonal().segment<2>(row), Omega.diagonal().head<3>(),
-         out);
+  const Eigen::Vector2d diagonal = block_of(state, row, row).diagonal();
+  append(no_landmark, Omega.block<2, 3>(row, 0), diagonal, Omega.diagonal().head<3>(), out);
   for (int other = 0; other < state.active_count(); ++other) {
     if (other == position) continue;
     // The block below the diagonal, since rounding may make the two triangles differ.
     const int low = InformationState::row_of(max(position, other));
     const int high = InformationState::row_of(min(position, other));
-    append(state.id(state.active(other)), Omega.block<2, 2>(low, high), Omega.diagonal().segment<2>(low),
-           Omega.diagonal().segment<2>(high), out);
+    append(state.id(state.active(other)), block_of(state, low, high),
+           Eigen::Vector2d(block_of(state, low, low).diagonal()),
+           Eigen::Vector2d(block_of(state, high, high).diagonal()), out);
   }
 }
 

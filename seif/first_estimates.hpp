@@ -39,6 +39,7 @@ class FirstEstimates {
 
   /// T_world_robot in the frame of the first estimates.
   const Pose2& pose() const { return pose_; }
+  void set_pose(const Pose2& pose) { pose_ = pose; }
   /// The first estimate of a landmark, p_world_landmark. [m]
   Eigen::Vector2d point(int slot) const { return points_[static_cast<std::size_t>(slot)]; }
   void set_point(int slot, const Eigen::Vector2d& point) { points_[static_cast<std::size_t>(slot)] = point; }

@@ -17,8 +17,8 @@ void add_block(int row, int col, const Block& block, Entries& entries) {
   }
 }
 
-void add_window(const InformationState& state, Entries& entries) {
-  const auto Omega = state.Omega();
+/// Without the blocks of single landmarks.
+void add_window(const InformationState& state, const Eigen::MatrixXd& Omega, Entries& entries) {
   const auto row_of = [](int i) { return InformationState::row_of(i); };
   add_block(0, 0, Omega.topLeftCorner<3, 3>(), entries);
   for (int p = 0; p < state.active_count(); ++p) {
@@ -34,10 +34,21 @@ void add_window(const InformationState& state, Entries& entries) {
 
 }  // namespace
 
+std::vector<Eigen::Triplet<double>> window_entries(const InformationState& state) {
+  Entries entries;
+  add_window(state, state.Omega(), entries);
+  for (int p = 0; p < state.active_count(); ++p) {
+    const int row = InformationState::row_of(p);
+    const int to = InformationState::row_of(state.active(p));
+    add_block(to, to, state.Omega().block<2, 2>(row, row), entries);
+  }
+  return entries;
+}
+
 Eigen::SparseMatrix<double> full_Omega(const InformationState& state) {
   Entries entries;
   const auto row_of = [](int slot) { return InformationState::row_of(slot); };
-  add_window(state, entries);
+  add_window(state, state.Omega() + state.frozen(), entries);
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
     add_block(row_of(slot), row_of(slot), state.information(slot), entries);
     state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {

@@ -4,6 +4,7 @@
 #include "seif/full_state.hpp"
 #include "seif/marginals.hpp"
 #include "seif/motion_update.hpp"
+#include "seif/start_points.hpp"
 
 namespace seif {
 
@@ -23,7 +24,9 @@ void InformationFilter::landmarks(std::span<const LandmarkId> landmarks,
 std::vector<LandmarkEstimate> InformationFilter::map() const {
   std::vector<LandmarkEstimate> map;
   map.reserve(static_cast<std::size_t>(state_.landmark_count()));
-  for (int slot = 0; slot < state_.landmark_count(); ++slot) map.push_back({state_.id(slot), mean(slot)});
+  for (int slot = 0; slot < state_.landmark_count(); ++slot) {
+    if (!is_start_point(state_.id(slot))) map.push_back({state_.id(slot), mean(slot)});
+  }
   return map;
 }
 

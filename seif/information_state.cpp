@@ -42,12 +42,12 @@ Eigen::Matrix2d InformationState::information(int slot) const {
   const Landmark& landmark = graph_.landmark(slot);
   if (landmark.position == none) return landmark.Omega_ii;
   const int row = row_of(landmark.position);
-  return Omega_.block<2, 2>(row, row);
+  return Omega_.block<2, 2>(row, row) + frozen_.block<2, 2>(row, row);
 }
 
 int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean) {
   const int slot = landmark_count();
-  index_.insert(landmark, slot);
+  if (landmark >= 0) index_.insert(landmark, slot);
   graph_.add_landmark(landmark, mean);
   first_estimates_.add(first_estimates_.framed(mean, pose()));
   return slot;
@@ -67,9 +67,11 @@ void InformationState::load_into_window(int slot, int position) {
   Landmark& landmark = graph_.landmark(slot);
   squared_residual_ -= std::exchange(landmark.squared_residual, 0.0);
   const int row = row_of(position);
-  Omega_.middleRows<2>(row).leftCols(row + 2).setZero();
-  Omega_.middleCols<2>(row).topRows(row + 2).setZero();
-  Omega_.block<2, 2>(row, row) = landmark.Omega_ii;
+  for (Eigen::MatrixXd* M : {&Omega_, &frozen_}) {
+    M->middleRows<2>(row).leftCols(row + 2).setZero();
+    M->middleCols<2>(row).topRows(row + 2).setZero();
+  }
+  stored().block<2, 2>(row, row) = landmark.Omega_ii;
   mu_.segment<2>(row) = landmark.mu;
   r_.segment<2>(row) = landmark.r;
   link_of_.row(position).head(position + 1).setConstant(none);
@@ -79,8 +81,8 @@ void InformationState::load_into_window(int slot, int position) {
     if (other_position == none) return;
     const int other_row = row_of(other_position);
     const Block Omega_so = graph_.block(link, end);
-    Omega_.block<2, 2>(row, other_row) = Omega_so;
-    Omega_.block<2, 2>(other_row, row) = Omega_so.transpose();
+    stored().block<2, 2>(row, other_row) = Omega_so;
+    stored().block<2, 2>(other_row, row) = Omega_so.transpose();
     link_of_(position, other_position) = link_of_(other_position, position) = link;
     touch(1);
   });
@@ -103,11 +105,11 @@ void InformationState::store_from_window(int position) {
   Landmark& landmark = graph_.landmark(slot);
   landmark.mu = mu_.segment<2>(row);
   landmark.r = r_.segment<2>(row);
-  landmark.Omega_ii = Omega_.block<2, 2>(row, row);
+  landmark.Omega_ii = stored().block<2, 2>(row, row);
   note_residual(landmark);
   for (int other = 0; other < active_count(); ++other) {
     if (other == position) continue;
-    const Block Omega_so = Omega_.block<2, 2>(row, row_of(other));
+    const Block Omega_so = stored().block<2, 2>(row, row_of(other));
     if (const int link = link_of_(position, other); link != none) {
       graph_.set_block(link, slot, Omega_so);
     } else if (!Omega_so.isZero(0.0)) {
@@ -121,9 +123,11 @@ void InformationState::move_within_window(int from, int to) {
   const int size = window_size();
   const int from_row = row_of(from);
   const int to_row = row_of(to);
-  Omega_.middleRows<2>(to_row).leftCols(size) = Omega_.middleRows<2>(from_row).leftCols(size);
-  Omega_.middleCols<2>(to_row).topRows(size) = Omega_.middleCols<2>(from_row).topRows(size);
-  Omega_.block<2, 2>(to_row, to_row) = Omega_.block<2, 2>(from_row, from_row);
+  for (Eigen::MatrixXd* M : {&Omega_, &frozen_}) {
+    M->middleRows<2>(to_row).leftCols(size) = M->middleRows<2>(from_row).leftCols(size);
+    M->middleCols<2>(to_row).topRows(size) = M->middleCols<2>(from_row).topRows(size);
+    M->block<2, 2>(to_row, to_row) = M->block<2, 2>(from_row, from_row);
+  }
   mu_.segment<2>(to_row) = mu_.segment<2>(from_row);
   r_.segment<2>(to_row) = r_.segment<2>(from_row);
   link_of_.row(to).head(active_count()) = link_of_.row(from).head(active_count());
@@ -139,6 +143,7 @@ void InformationState::reserve_window(int active_landmarks) {
   const int new_room = std::max(active_landmarks, 2 * room);
   const int rows = row_of(new_room);
   Omega_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
+  frozen_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
   work_.resize(rows, rows);
   work_columns_.resize(rows, 3);
   mu_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
@@ -242,7 +247,10 @@ std::int64_t InformationState::link_count() const {
   std::int64_t links = active_count() + graph_.link_count();
   for (int i = 0; i < active_count(); ++i) {
     for (int j = 0; j < i; ++j) {
-      if (link_of_(i, j) == none && !Omega_.block<2, 2>(row_of(i), row_of(j)).isZero(0.0)) ++links;
+      if (link_of_(i, j) != none) continue;
+      const bool is_linked = !Omega_.block<2, 2>(row_of(i), row_of(j)).isZero(0.0) ||
+                             !frozen_.block<2, 2>(row_of(i), row_of(j)).isZero(0.0);
+      if (is_linked) ++links;
     }
   }
   return links;
@@ -250,7 +258,7 @@ std::int64_t InformationState::link_count() const {
 
 std::size_t InformationState::memory_bytes() const {
   return graph_.memory_bytes() + index_.memory_bytes() + first_estimates_.memory_bytes() +
-         sizeof(double) * static_cast<std::size_t>(2 * Omega_.size() + 2 * mu_.size() + 3 * mu_.size()) +
+         sizeof(double) * static_cast<std::size_t>(3 * Omega_.size() + 2 * mu_.size() + 3 * mu_.size()) +
          sizeof(int) * (static_cast<std::size_t>(link_of_.size()) + active_.capacity());
 }
 

@@ -5,11 +5,10 @@
 //           active  [ ...    act,act      act,pas  ]
 //           passive [ 0      ...          pas,pas  ]
 //
-// Robot and active landmarks (those with a link to the robot) are the window. Its matrix is dense, and motion,
-// measurement and sparsification change nothing outside it. The rest is a graph of 2 x 2 blocks, each stored
-// once.
-// The state keeps the residual r = xi - Omega mu instead of xi. So no large numbers cancel, turning the heading
-// by a full circle changes nothing, and moving the mean by d is exact: r -= Omega d. xi is r + Omega mu.
+// Robot and active landmarks (those with a link to the robot) are the window. Its matrix is dense, and no step
+// changes anything outside it. The rest is a graph of 2 x 2 blocks, each stored once.
+// The state keeps the residual r = xi - Omega mu instead of xi. So no large numbers cancel, and moving the mean by
+// d is exact: r -= Omega d.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,17 +35,18 @@ class InformationState {
   static int row_of(int position) { return 3 + 2 * position; }
   auto Omega() { return Omega_.topLeftCorner(window_size(), window_size()); }  // (w x w), symmetric
   auto Omega() const { return Omega_.topLeftCorner(window_size(), window_size()); }
+  /// What is frozen among the active landmarks, if it is kept apart: Omega() is without it. (w x w)
+  auto frozen() { return frozen_.topLeftCorner(window_size(), window_size()); }
+  auto frozen() const { return frozen_.topLeftCorner(window_size(), window_size()); }
   auto r() { return r_.head(window_size()); }  // (w x 1)
   auto r() const { return r_.head(window_size()); }
 
-  /// Scratch memory for a step, as large as the window, so that no step allocates. Its content has no meaning
-  /// between steps.
+  /// Scratch memory for a step, as large as the window, so that no step allocates.
   auto work() { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
   void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller updates r
-
   /// Not in use by default: Jacobians are then taken at the mean (linearisation.hpp).
   FirstEstimates& first_estimates() { return first_estimates_; }
   const FirstEstimates& first_estimates() const { return first_estimates_; }
@@ -71,14 +71,17 @@ class InformationState {
   void begin_scan() { ++scan_; }
   void mark_seen(int slot);
 
+  /// From now on Omega() and r() hold only what is not frozen yet (freezing.hpp). Before the first landmark joins.
+  void keep_frozen_apart() { keeps_frozen_apart_ = true; }
+  bool keeps_frozen_apart() const { return keeps_frozen_apart_; }
+
   /// Adds a passive landmark without information and links: nothing is known of it yet. Returns its slot.
   int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean);
 
   /// Takes a passive landmark into the window; returns its position there.
   int activate(int slot);
 
-  /// Takes the landmark at `position`, whose link to the robot must be zero, out of the window. The last active
-  /// landmark moves to its position.
+  /// Takes the landmark at `position`, which has no link to the robot, out of the window. The last one moves there.
   void deactivate(int position);
 
   /// Calls visit(other slot, Omega_so) for every link of a landmark, except for the links within the window.
@@ -98,16 +101,13 @@ class InformationState {
   /// The same if all passive landmarks follow so that their own r stays: the window's r loses `dr` (w x 1), no
   /// other r changes, and the caller updates the means of the passive landmarks.
   void move_window(const Eigen::Ref<const Eigen::VectorXd>& d, const Eigen::Ref<const Eigen::VectorXd>& dr);
-
   /// Sets the mean of a passive landmark; the caller must update r.
   void set_mean(int slot, const Eigen::Vector2d& mean);
 
-  /// Keeps squared_residual() up to date wherever r changes. To be called before the first landmark joins.
+  /// Keeps squared_residual() up to date wherever r changes. Before the first landmark joins.
   void track_residual() { tracks_residual_ = true; }
-  /// Sum of r_i' Omega_ii^-1 r_i over the robot and all landmarks [-], in constant time. Nothing if the robot's
-  /// block is not positive definite.
+  /// Sum of r_i' Omega_ii^-1 r_i [-], in constant time. Nothing if the robot's block is not positive definite.
   std::optional<double> squared_residual() const;
-
   /// The report's count: links of the robot + pairs of linked landmarks.
   std::int64_t link_count() const;
 
@@ -124,17 +124,17 @@ class InformationState {
   using Landmark = InformationGraph::Landmark;
   static constexpr int none = InformationGraph::none;
 
+  Eigen::MatrixXd& stored() { return keeps_frozen_apart_ ? frozen_ : Omega_; }
   void load_into_window(int slot, int position);
   void store_from_window(int position);
   void move_within_window(int from, int to);
   void reserve_window(int active_landmarks);
   void note_residual(Landmark& landmark);
 
-  std::vector<int> active_;  // slots, by position
-  Eigen::MatrixXd Omega_;    // window, with room to grow
-  Eigen::VectorXd mu_;       // window
-  Eigen::VectorXd r_;        // window
-  Eigen::MatrixXd work_;     // as large as Omega_
+  std::vector<int> active_;         // slots, by position
+  Eigen::MatrixXd Omega_, frozen_;  // window, with room to grow
+  Eigen::VectorXd mu_, r_;          // window
+  Eigen::MatrixXd work_;            // as large as Omega_
   Eigen::Matrix<double, Eigen::Dynamic, 3> work_columns_;
   Eigen::MatrixXi link_of_;  // by two positions: the graph's link between them, or none (symmetric)
 
@@ -142,7 +142,7 @@ class InformationState {
   LandmarkIndex index_;
   FirstEstimates first_estimates_;
   int scan_ = 0;
-  bool tracks_residual_ = false;
+  bool keeps_frozen_apart_ = false, tracks_residual_ = false;
   double squared_residual_ = 0.0;  // sum over the passive landmarks
   std::int64_t blocks_touched_ = 0;
 };

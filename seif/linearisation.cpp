@@ -1,5 +1,9 @@
 #include "seif/linearisation.hpp"
 
+#include <Eigen/Geometry>
+
+#include "seif/tree/moved_boundary.hpp"
+
 namespace seif {
 namespace {
 
@@ -22,6 +26,22 @@ void move_first_estimate(InformationState& state, int position, const Eigen::Vec
   const int slot = state.active(position);
   change_turn(state, InformationState::row_of(position), to - firsts.point(slot));
   firsts.set_point(slot, to);
+}
+
+bool has_information(const InformationState& state, int position) {
+  const int row = InformationState::row_of(position);
+  return state.Omega().block<2, 2>(row, row).trace() > 0.0;
+}
+
+void turn_frozen(InformationState& state, const Eigen::Matrix2d& R) {
+  auto frozen = state.frozen();
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int row = InformationState::row_of(position);
+    for (Eigen::Index k = 0; k < frozen.cols(); ++k)
+      frozen.block<2, 1>(row, k) = (R * frozen.block<2, 1>(row, k)).eval();
+    for (Eigen::Index k = 0; k < frozen.rows(); ++k)
+      frozen.block<1, 2>(k, row) = (frozen.block<1, 2>(k, row) * R.transpose()).eval();
+  }
 }
 
 /// Calls visit(slot, mean) for each active landmark.
@@ -74,6 +94,34 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
 void follow_pose(InformationState& state, const Pose2& before) {
   if (!state.first_estimates().in_use()) return;
   change_turn(state, 0, state.first_estimates().follow_pose(before, state.pose(), active_means(state)));
+}
+
+void carry_first_estimates(InformationState& state, double near, MovedBoundary& moved) {
+  FirstEstimates& firsts = state.first_estimates();
+  const Pose2 from = firsts.pose();
+  const Pose2 to = state.pose();
+  const Eigen::Vector2d from_p(from.x, from.y);
+  const Eigen::Vector2d to_p(to.x, to.y);
+  const Eigen::Rotation2Dd R(wrap_angle(to.theta - from.theta));
+  moved.begin(near);
+  moved.add({.before = from_p, .now = to_p, .turn = R.angle(), .is_group = true});
+  for (int position = 0; position < state.active_count(); ++position) {
+    const int slot = state.active(position);
+    if (!has_information(state, position)) {
+      moved.skip();
+      continue;
+    }
+    const Eigen::Vector2d lever = R.inverse() * (state.mean(slot) - to_p);
+    const bool fits = are_levers_alike(firsts.lever(slot), lever, firsts.sighting_sd());
+    moved.add({.before = fits ? firsts.point(slot) : from_p + lever, .now = state.mean(slot)});
+  }
+  moved.fit();
+  moved.bring(state.Omega());
+  moved.bring_residual(state.r());
+  turn_frozen(state, R.toRotationMatrix());
+  firsts.set_pose(to);
+  for (int position = 0; position < state.active_count(); ++position)
+    firsts.set_point(state.active(position), state.mean(state.active(position)));
 }
 
 /// A first estimate settles with its landmark's first link to a passive landmark: a later move of it would link

@@ -30,6 +30,9 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
 /// Does nothing where landmarks of another frame are in view.
 void follow_pose(InformationState& state, const Pose2& before);
 
+/// All first estimates of the window become the means, with Omega and r turned and moved as they are.
+void carry_first_estimates(InformationState& state, double near, class MovedBoundary& moved);
+
 /// Replaces the first estimates of active landmarks that are not settled yet by their means. Omega and r change
 /// with them, so that Omega still holds no information about a turn of everything, now about the new first
 /// estimates.

@@ -1,7 +1,7 @@
 // How Seif keeps its mean up to date: the calls of an update, in their order.
 //
 //   scan -> activate -> before_information -> (information is added) -> solve_window -> join
-//        -> after_information -> (sparsification) -> deactivate -> end_update
+//        -> after_information -> (sparsification) -> freeze -> end_update
 //
 // There are three implementations: TreeMean (tree/), GroupMean (groups/) and ExactMean.
 #pragma once
@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "seif/freezing.hpp"
 #include "seif/information_state.hpp"
 #include "seif/window_factor.hpp"
 
@@ -39,8 +40,10 @@ class MeanKeeper {
   /// Called when a landmark has just joined the map. It is not active yet.
   virtual void join(const InformationState& state, int slot) = 0;
 
-  /// Called when these landmarks have left the window. False if a matrix is not positive definite.
-  [[nodiscard]] virtual bool deactivate(const InformationState& /*state*/, std::span<const int> /*slots*/) {
+  /// Called when landmarks have left the window, with what was frozen with them, if the state keeps that apart.
+  /// False if a matrix is not positive definite.
+  [[nodiscard]] virtual bool freeze(const InformationState& /*state*/,
+                                    std::span<const FrozenPiece> /*pieces*/) {
     return true;
   }
 

@@ -72,6 +72,7 @@ ObservationFactor linearise_at_measurement(const InformationState& state, int sl
   factor.J_m = predicted.J_wrt_landmark;
   factor.v = factor.J_m * (seen_at - factor.m0);  // at seen_at the innovation is zero
   keep_null_space(state, seen_at, factor);
+  factor.at_measurement = true;
   return factor;
 }
 

@@ -18,6 +18,7 @@ struct ObservationFactor {
   Eigen::Vector2d v = Eigen::Vector2d::Zero();          // innovation at x0, m0 [m, rad]
   Eigen::Matrix2d Q_inverse = Eigen::Matrix2d::Zero();  // (2 x 2)
   Eigen::Vector2d noise = Eigen::Vector2d::Zero();  // variances that Q has beyond the sensor's [m^2, rad^2]
+  bool at_measurement = false;                      // where it is linearised
   Pose2 x0;                                         // T_world_robot
   Eigen::Vector2d m0 = Eigen::Vector2d::Zero();     // p_world_landmark [m]
 };

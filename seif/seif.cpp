@@ -2,15 +2,19 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <span>
 #include <stdexcept>
 
 #include "seif/exact_mean.hpp"
+#include "seif/full_state.hpp"
 #include "seif/groups/group_mean.hpp"
 #include "seif/linearisation.hpp"
 #include "seif/linearisation_noise.hpp"
+#include "seif/marginals.hpp"
 #include "seif/measurement_steps.hpp"
 #include "seif/sparsification.hpp"
+#include "seif/start_points.hpp"
 #include "seif/tree/tree_belief.hpp"
 #include "seif/tree/tree_mean.hpp"
 
@@ -20,6 +24,18 @@ namespace {
 constexpr int most_relinearisations = 4;  // [-] in one update
 /// [-] Second-order terms below this share of the sensor's variances are ignored.
 constexpr double least_curvature = 0.1;
+
+// Where a part of the map cannot be told to have turned, its frame stays fixed:
+constexpr double most_heading_variance = 0.1;   // [rad^2] of the odometry between two scans
+constexpr double most_bearing_variance = 0.01;  // [rad^2]
+constexpr double least_sighting_variance =
+    1e-10;  // [m^2] information beyond that is not turned without rounding
+
+bool can_turn(const Observation& z) {
+  const double across = z.range * z.range * z.covariance(1, 1);
+  return z.covariance(1, 1) <= most_bearing_variance &&
+         std::min(z.covariance(0, 0), across) >= least_sighting_variance;
+}
 
 EstimatorSetup in_start_frame(EstimatorSetup setup) {
   setup.start = StartFrame(setup.start).inner();
@@ -38,13 +54,18 @@ Seif::Seif(const EstimatorSetup& setup, const SeifOptions& options)
     innovation_ = 0.0;
   }
   if (options_.first_estimates > 0) state_.first_estimates().settle_after(options_.first_estimates);
+  if (tree_ == nullptr) return;
+  relate_to_start(state_, start_.inner().covariance);
+  tree_->hold(state_, std::array{0, 1}, start_point_sd);
 }
 
 void Seif::make_keeper(const Pose2& start) {
   switch (options_.mean_recovery) {
     case MeanRecovery::tree: {
+      state_.keep_frozen_apart();
       auto keeper = std::make_unique<TreeMean>(options_.tree, start);
-      belief_ = std::make_unique<TreeBelief>(state_, keeper->tree(), T_robot_sensor_, equal_slots_);
+      tree_ = &keeper->tree();
+      belief_ = std::make_unique<TreeBelief>(state_, *tree_, T_robot_sensor_, equal_slots_);
       keeper_ = std::move(keeper);
       return;
     }
@@ -62,6 +83,7 @@ void Seif::make_keeper(const Pose2& start) {
 
 void Seif::motion_update(const Odometry& odometry) {
   factor_is_current_ = false;
+  if (tree_ != nullptr && odometry.covariance(2, 2) > most_heading_variance) tree_->keep_fixed();
   InformationFilter::motion_update(odometry);
 }
 
@@ -102,6 +124,7 @@ void Seif::activate_known(const Scan& scan) {
   for (const Observation& observation : scan.observations) {
     range = std::max(range, observation.range);
     sighting_sd = std::max(sighting_sd, sd_of_sighting(observation));
+    if (tree_ != nullptr && !can_turn(observation)) tree_->keep_fixed();
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
   if (sighting_sd > 0.0) state_.first_estimates().note_sighting_sd(sighting_sd);
@@ -153,7 +176,13 @@ double Seif::heading_variance(double t) {
 
 /// Given the latest solution for the window. [m^2, rad^2]
 Eigen::Vector2d Seif::noise_of(const ObservationFactor& factor) {
-  return noise_factor() * linearisation_noise(state_, factor, *keeper_->window_factor(), columns_);
+  const WindowFactor& window = *keeper_->window_factor();
+  if (factor.at_measurement && tree_ != nullptr &&
+      tree_->turns()) {  // where the closure leads to: how far away that is does not count
+    const double V = seif::heading_variance(window, columns_);
+    return noise_factor() * linearisation_noise(factor.observation, V);
+  }
+  return noise_factor() * linearisation_noise(state_, factor, window, columns_);
 }
 
 /// Ignores the observations that fail the gate, and enlarges the covariance of those beyond robust_above. Each
@@ -264,7 +293,10 @@ void Seif::sparsify(double t) {
   choose_surplus(state_, {.theta_x = options_.theta_x, .theta_max = options_.theta_max}, to_drop_);
   if (to_drop_.empty()) return;
   const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
-  if (!anchoring || !keeper_->deactivate(state_, to_drop_)) throw NumericalFailure("sparsification", t);
+  if (!anchoring) throw NumericalFailure("sparsification", t);
+  if (state_.keeps_frozen_apart() && !freeze(state_, to_drop_, frozen_))
+    throw NumericalFailure("freezing", t);
+  if (!keeper_->freeze(state_, frozen_)) throw NumericalFailure("freezing", t);
   anchoring_ += *anchoring;
 }
 
@@ -280,8 +312,43 @@ std::optional<Eigen::Matrix3d> Seif::pose_covariance() const {
   return Eigen::Matrix3d(Y.transpose() * Y) + start_.of_pose(pose());
 }
 
+/// All information about [pose | slots in their order], what is frozen turned to where it is now. (3+2N x 3+2N),
+/// lower triangle
+Eigen::SparseMatrix<double> Seif::whole_information() const {
+  if (tree_ == nullptr) return full_Omega(state_);
+  std::vector<Eigen::Triplet<double>> entries = window_entries(state_);
+  for (const FrozenInformation::Block& block : tree_->frozen_information(state_).blocks) {
+    const bool is_lower = block.slot >= block.other;
+    const int row = InformationState::row_of(is_lower ? block.slot : block.other);
+    const int col = InformationState::row_of(is_lower ? block.other : block.slot);
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < (row == col ? i + 1 : 2); ++j)
+        entries.emplace_back(row + i, col + j, is_lower ? block.Omega(i, j) : block.Omega(j, i));
+    }
+  }
+  const int size = InformationState::row_of(state_.landmark_count());
+  Eigen::SparseMatrix<double> Omega(size, size);
+  Omega.setFromTriplets(entries.begin(), entries.end());
+  return Omega;
+}
+
+/// Without the start points, as if their places were known exactly.
+Eigen::MatrixXd Seif::whole_belief_matrix() const {
+  if (tree_ == nullptr) return InformationFilter::whole_belief_matrix();
+  const Eigen::MatrixXd all = Eigen::MatrixXd(whole_information()).selfadjointView<Eigen::Lower>();
+  constexpr Eigen::Index of_start_points = 2 * static_cast<Eigen::Index>(start_points.size());
+  const Eigen::Index landmarks = all.rows() - 3 - of_start_points;
+  Eigen::MatrixXd Omega(3 + landmarks, 3 + landmarks);
+  Omega << all.topLeftCorner<3, 3>(), all.topRightCorner(3, landmarks), all.bottomLeftCorner(landmarks, 3),
+      all.bottomRightCorner(landmarks, landmarks);
+  return Omega;
+}
+
 std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const LandmarkId> landmarks) const {
-  std::optional<MarginalCovariances> marginals = InformationFilter::marginal_covariances(landmarks);
+  std::vector<int> rows;
+  for (const LandmarkId landmark : landmarks)
+    rows.push_back(InformationState::row_of(state_.find(landmark).value()));
+  std::optional<MarginalCovariances> marginals = marginals_of(whole_information(), 0, rows);
   if (!marginals) return marginals;
   marginals->pose += start_.of_pose(pose());
   for (std::size_t i = 0; i < landmarks.size(); ++i)
@@ -291,7 +358,10 @@ std::optional<MarginalCovariances> Seif::marginal_covariances(std::span<const La
 
 std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
     std::span<const LandmarkIds> groups) const {
-  std::optional<std::vector<Eigen::MatrixXd>> joint = InformationFilter::joint_covariances(groups);
+  const auto row_of = [&](LandmarkId id) { return InformationState::row_of(state_.find(id).value()); };
+  std::vector<std::vector<int>> blocks;
+  for (const LandmarkIds& group : groups) blocks.push_back(joint_rows(group, row_of));
+  std::optional<std::vector<Eigen::MatrixXd>> joint = blocks_of_inverse(whole_information(), blocks);
   for (std::size_t g = 0; joint && g < groups.size(); ++g) {
     Eigen::VectorXd means(3 + 2 * static_cast<Eigen::Index>(groups[g].size()));
     means.head<3>() << pose().x, pose().y, pose().theta;
@@ -308,15 +378,15 @@ std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
 std::size_t Seif::memory_bytes() const { return state_.memory_bytes() + keeper_->memory_bytes(); }
 
 Counts Seif::counts() const {
-  return {.blocks_touched = state_.blocks_touched() + keeper_->blocks_touched(),
-          .gated = gated_,
-          .weakened = weakened_,
-          .active_landmarks = state_.active_count(),
-          .links = state_.link_count(),
-          .mean_residual = keeper_->residual(),
-          .anchoring = anchoring_,
-          .innovation = innovation_,
-          .innovation_degrees = innovation_degrees_};
+  return without_start_points(state_, {.blocks_touched = state_.blocks_touched() + keeper_->blocks_touched(),
+                                       .gated = gated_,
+                                       .weakened = weakened_,
+                                       .active_landmarks = state_.active_count(),
+                                       .links = state_.link_count(),
+                                       .mean_residual = keeper_->residual(),
+                                       .anchoring = anchoring_,
+                                       .innovation = innovation_,
+                                       .innovation_degrees = innovation_degrees_});
 }
 
 }  // namespace seif

@@ -3,6 +3,7 @@
 // updates and the memory.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "seif/association/local_belief.hpp"
+#include "seif/freezing.hpp"
 #include "seif/groups/multilevel_mean.hpp"
 #include "seif/information_filter.hpp"
 #include "seif/mean_keeper.hpp"
@@ -72,6 +74,7 @@ class Seif final : public InformationFilter {
   void measurement_update(const Scan& scan, const StageDone& done) override;
   /// With MeanRecovery::tree, from a scan to the next motion: what the tree's last solution gives.
   std::optional<Eigen::Matrix3d> pose_covariance() const override;
+  Eigen::MatrixXd whole_belief_matrix() const override;
   std::optional<MarginalCovariances> marginal_covariances(
       std::span<const LandmarkId> landmarks) const override;
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
@@ -86,6 +89,7 @@ class Seif final : public InformationFilter {
 
  private:
   void make_keeper(const Pose2& start);
+  Eigen::SparseMatrix<double> whole_information() const;
   void activate_known(const Scan& scan);
   void join_equal(double t);
   void allow_for_curvature(const Scan& scan);
@@ -104,6 +108,7 @@ class Seif final : public InformationFilter {
   SeifOptions options_;
   StartFrame start_;
   std::unique_ptr<MeanKeeper> keeper_;
+  CondensationTree* tree_ = nullptr;  // of the keeper, if it has one
   std::unique_ptr<LocalBelief> belief_;
   double anchoring_ = 0.0;  // [nat]
   std::int64_t gated_ = 0, weakened_ = 0;
@@ -114,6 +119,7 @@ class Seif final : public InformationFilter {
   mutable Eigen::Matrix<double, Eigen::Dynamic, 3> columns_;  // scratch (w x 3), with room to grow
   bool is_curved_ = false;                                    // second-order terms matter in the latest scan
   std::vector<ObservationFactor> factors_, again_;            // of the latest scan
+  std::vector<FrozenPiece> frozen_;                           // by the latest sparsification
   std::vector<int> seen_, to_drop_;                           // slots; kept so that no update allocates
   std::vector<std::pair<int, int>> equal_slots_;
 };

@@ -79,7 +79,6 @@ bool drop_links(InformationState& state, std::span<const int> slots) {
   Lambda.matrixU().solveInPlace<Eigen::OnTheRight>(V_m);
   Omega_mm.noalias() += V_m * V_m.transpose();
   state.touch(2 * state.window_blocks());
-  for (const int slot : slots) state.deactivate(state.position(slot));
   return true;
 }
 
@@ -166,7 +165,7 @@ void float_window(InformationState& state) {
 std::optional<double> sparsify(InformationState& state, SparsificationRule rule, std::span<const int> slots) {
   assert(static_cast<int>(slots.size()) < state.active_count());
   std::optional<double> anchored = 0.0;
-  state.work() = state.Omega();
+  state.work() = state.Omega() + state.frozen();
   if (rule != SparsificationRule::report) {
     if (!marginalise_landmarks(state, slots)) return std::nullopt;
     anchored = log_determinant(state.work().topLeftCorner<3, 3>());
@@ -176,7 +175,7 @@ std::optional<double> sparsify(InformationState& state, SparsificationRule rule,
     case SparsificationRule::report:
       break;
     case SparsificationRule::gauge_free:
-      state.work() = state.Omega();
+      state.work() = state.Omega() + state.frozen();
       float_window(state);
       break;
     case SparsificationRule::modified: {
@@ -188,6 +187,9 @@ std::optional<double> sparsify(InformationState& state, SparsificationRule rule,
     }
   }
   if (!drop_links(state, slots)) return std::nullopt;
+  if (!state.keeps_frozen_apart()) {
+    for (const int slot : slots) state.deactivate(state.position(slot));
+  }
   if (rule == SparsificationRule::report) return 0.0;
   // drop_links() has factorised this block already: it is positive definite.
   return *anchored - log_determinant(state.Omega().topLeftCorner<3, 3>()).value();

@@ -27,8 +27,8 @@ enum class SparsificationRule {
   gauge_free
 };
 
-/// Removes the robot's links to the active landmarks `slots`, which become passive. r stays, and so does the
-/// mean, eq. (51). At least one landmark must stay active; with gauge_free two, at different places.
+/// Removes the robot's links to the active landmarks `slots`, which become passive; where frozen information is
+/// kept apart, freeze() makes them passive afterwards. r stays, and so does the mean, eq. (51). At least one landmark must stay active; with gauge_free two, at different places.
 ///
 /// Returns how much more information about the pose, given the landmarks that stay, the report's rule would
 /// keep than D does: log det Lambda(H0) - log det Lambda(D) [nat], with Lambda the information of p(x | Y+) and

@@ -245,7 +245,13 @@ void add_mean_recovery(OptionTable<SeifOptions>& table) {
       .number(
           "tree_blocks", [](SeifOptions& o) -> int& { return o.tree.most_blocks; }, {0, 1'000'000'000},
           "With the tree: blocks that an update prepares for the next zone, or more if the robot would "
-          "arrive before the zone is ready; 0: all at once, so that no observation waits [-].");
+          "arrive before the zone is ready; 0: all at once, so that no observation waits [-].")
+      .choice(
+          "tree_frames", [](SeifOptions& o) -> bool& { return o.tree.turns; },
+          OptionChoices<bool>{{"turning", true}, {"fixed", false}},
+          "With the tree: whether what was learnt of a part of the map turns with that part when a closure "
+          "turns "
+          "it (turning), or stays as it was turned when it was learnt (fixed).");
 }
 
 EstimatorType seif() {

@@ -40,7 +40,7 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
     if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
   }
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    if (Broken wrong = broken_landmark(state, slot)) return wrong;
+    if (Broken wrong = broken_landmark(slot)) return wrong;
   }
   for (int i = 0; i < tree_.size(); ++i) {
     if (Broken wrong = broken_message(i)) return wrong;
@@ -51,16 +51,25 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
   return std::nullopt;
 }
 
-std::optional<std::string> CondensationTree::broken_landmark(const InformationState& state, int slot) const {
+std::optional<std::string> CondensationTree::broken_landmark(int slot) const {
   const CondensedLandmark& p = landmark(slot);
   const bool is_hot = node(p.leaf).hot;
   if (is_hot != (p.zone_index != none))
     return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
   if (is_hot) return std::nullopt;
-  if (p.leaves != count_leaves(state, slot)) return broken("other leaves mention landmark ", slot);
+  if (p.leaves != count_leaves(slot)) return broken("other leaves mention landmark ", slot);
   if (times_settled(sent(p.settled_at).message, slot) != 1)
     return broken("landmark ", slot, " is not settled at node ", p.settled_at);
   return std::nullopt;
+}
+
+int CondensationTree::count_leaves(int slot) const {
+  int leaves = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto is_it = [&](const Condensed::Member& m) { return m.variable == slot; };
+    if (std::ranges::any_of(nodes_[i].own.boundary, is_it)) ++leaves;
+  }
+  return leaves;
 }
 
 std::optional<std::string> CondensationTree::broken_message(int i) const {

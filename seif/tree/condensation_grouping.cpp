@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
@@ -77,7 +76,7 @@ int CondensationTree::count_unknowns(double ratio) {
 }
 
 /// From the finest groups that suffice to the coarsest that are allowed.
-void CondensationTree::tie_front(const InformationState& state, int at, SentMessage& next) {
+void CondensationTree::tie_front(int at, SentMessage& next) {
   ++fronts_;
   std::vector<int>& groups = next.groups;
   groups.clear();
@@ -97,30 +96,39 @@ void CondensationTree::tie_front(const InformationState& state, int at, SentMess
     }
     const std::size_t count = targets_.size();
     for (std::size_t i = 0; i < count; ++i) {
-      if (targets_[i] != none) tie(state, i, targets_[i], groups);
+      if (targets_[i] != none) tie(i, targets_[i], groups);
     }
   }
   note_reach(at, next);
 }
 
-/// The levers are those of the Jacobians (FirstEstimates): Omega knows nothing of
-/// moving all along these, and they are the same whenever a landmark is tied.
-void CondensationTree::tie(const InformationState& state, std::size_t index, int target,
-                           std::vector<int>& groups) {
+/// In the middle of the variables that will be tied to it.
+void CondensationTree::begin_group(int target) {
+  LandmarkGroup& group = node(target).group;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  int members = 0;
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    if (targets_[i] != target) continue;
+    middle += plan_place(front_.variables()[i].variable);
+    ++members;
+  }
+  group.start = group.place = middle / members;
+  group.place_turn = 0.0;
+  group.mean.setZero();
+  group.read.setZero();
+  group.known_in = plan_.number;
+  plan_.begun.push_back(target);
+}
+
+void CondensationTree::tie(std::size_t index, int target, std::vector<int>& groups) {
   LandmarkGroup& group = node(target).group;
   if (group.present_in != fronts_) {
     group.present_in = fronts_;
     groups.push_back(target);
-    if (group.fronts == 0 && group.known_in != plan_.number) {
-      group.centre = tree_.centre(target);
-      group.known_in = plan_.number;
-      plan_.begun.push_back(target);
-    }
+    if (group.fronts == 0 && group.known_in != plan_.number) begin_group(target);
   }
   const FrontVariable v = front_.variables()[index].variable;
-  const Eigen::Vector2d at =
-      is_group(v) ? Eigen::Vector2d(node(~v).group.centre) : linearisation_point(state, v);
-  front_.tie(index, group_variable(target), at - group.centre);
+  front_.tie(index, group_variable(target), plan_place(v) - plan_place(group_variable(target)));
 }
 
 void CondensationTree::note_reach(int at, SentMessage& next) {

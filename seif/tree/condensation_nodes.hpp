@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
+#include "seif/freezing.hpp"
 #include "seif/tree/front.hpp"
 #include "seif/tree/leaf_tree.hpp"
 
@@ -18,14 +21,15 @@ struct CondensedLandmark {
 
   int leaf = none;
   int next = none;        // slot of the next landmark of the leaf
-  int leaves = 0;         // [-] that mention it, if it is cold
+  int leaves = 0;         // [-] that mention it
   int zone_index = none;  // in the zone, or none
   int settled_at = none;  // if it is cold: the node where it is eliminated, or tied to a group
   int visit = 0;
   int row = 0;                         // in the part that is being looked at
+  Point home = Point::Zero();          // where it joined: its place in the tree, whatever closes later [m]
   Point mean = Point::Zero();          // if it is cold: as that node last heard of it [m]
   mutable Point read = Point::Zero();  // what that is by now, if somebody has looked [m]
-  Point untold = Point::Zero();        // the part of its residual that is in no message
+  Point place = Point::Zero();         // where the latest plan has it [m]
 };
 
 /// All landmarks below a node, where they move as one rigid body.
@@ -33,7 +37,9 @@ struct LandmarkGroup {
   using Motion = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
   static constexpr int none = -1;
 
-  CondensedLandmark::Point centre = CondensedLandmark::Point::Zero();  // p_world [m]
+  CondensedLandmark::Point place = CondensedLandmark::Point::Zero();  // of its middle, as for a landmark [m]
+  double place_turn = 0.0;                                            // [rad] its turn then
+  CondensedLandmark::Point start = CondensedLandmark::Point::Zero();  // p_world of it when it began [m]
   int settled_at = none;
   Motion mean = Motion::Zero();          // all its motion so far [m, m, rad], as above
   mutable Motion read = Motion::Zero();  // as above
@@ -73,12 +79,28 @@ struct CondensationNode {
   int distance_known_in = 0;    // number of the plan that knows it
 
   // For leaves.
+  Condensed own;              // its element (leaf_element.hpp); with most_blocks, without plan_.fresh
   int first_landmark = none;  // slot
   int landmarks = 0;          // [-]
   bool hot = false;
   bool next_hot = false;  // in the next zone, if one is planned; otherwise as `hot`
   bool wanted = false;
   int used = 0;  // scan that last had a landmark of it in the window
+};
+
+/// Pieces that keep their memory, so that no update allocates.
+class FrozenPieces {
+ public:
+  void add(const FrozenPiece& piece) {
+    if (count_ == pieces_.size()) pieces_.emplace_back();
+    pieces_[count_++] = piece;
+  }
+  void clear() { count_ = 0; }
+  std::span<const FrozenPiece> all() const { return std::span(pieces_).first(count_); }
+
+ private:
+  std::vector<FrozenPiece> pieces_;
+  std::size_t count_ = 0;
 };
 
 /// The next zone, and the messages that it needs, while they are prepared.
@@ -93,6 +115,7 @@ struct CondensationPlan {
   std::int64_t worked = 0;           // [-] blocks, in this update
   bool has_told = false;             // whether its messages hold the residuals from where the means are
   std::vector<int> begun;            // nodes whose groups are
+  FrozenPieces fresh;                // frozen since, and not yet in the elements of their leaves
   std::deque<SentMessage> messages;  // by that order, as far as ready
   std::vector<int> new_leaves;       // that have come since, and stand beside the tree
 };

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "seif/linearisation.hpp"
 #include "seif/tree/condensation_tree.hpp"
 
 namespace seif {
@@ -14,9 +13,17 @@ Eigen::Vector2d CondensationTree::zone_middle(const Pose2& pose) const {
   return pose * Eigen::Vector2d(options_.zone_before * view_, 0.0);
 }
 
+void CondensationTree::note_homes(const InformationState& state) {
+  homes_.begin();
+  for (int p = 0; p < state.active_count(); ++p)
+    homes_.add(landmark(state.active(p)).home, state.mean(state.active(p)));
+  homes_.finish(0.5 * view_);
+}
+
 void CondensationTree::note_travel(const InformationState& state) {
   constexpr double kept = 0.95;  // of it, at an update that goes less far
-  const Eigen::Vector2d now = zone_middle(linearisation_pose(state));
+  note_homes(state);
+  const Eigen::Vector2d now = zone_middle(state.pose());
   if (scan_ > 1) travel_ = std::max((now - last_middle_).norm(), kept * travel_);
   last_middle_ = now;
 }
@@ -37,7 +44,7 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   chosen.clear();
   int landmarks = 0;
   const auto want = [&](int leaf) {
-    if (node(leaf).wanted) return;
+    if (node(leaf).wanted || leaf == held_leaf_) return;
     node(leaf).wanted = true;
     landmarks += node(leaf).landmarks;
     chosen.push_back(leaf);
@@ -45,12 +52,13 @@ bool CondensationTree::choose_hot_leaves(const InformationState& state, std::spa
   for (int p = 0; p < state.active_count(); ++p) want(landmark(state.active(p)).leaf);
   for (const int slot : slots) want(landmark(slot).leaf);
   for (const int slot : wanted_) want(landmark(slot).leaf);
-  const std::optional<Pose2> elsewhere = other_linearisation_pose(state);
   const auto want_near = [&](double views) {
     if (options_.most_blocks == 0) return;  // what is wanted comes at once
     // Leaves stay where their landmarks first were, however a closure has bent the map since.
-    tree_.for_each_leaf_near(zone_middle(linearisation_pose(state)), views * view_, want);
-    if (elsewhere) tree_.for_each_leaf_near(zone_middle(*elsewhere), views * view_, want);
+    const Eigen::Vector2d middle = zone_middle(state.pose());
+    tree_.for_each_leaf_near(middle + homes_.offset(), views * view_, want);
+    if (const auto& other = homes_.other_offset())
+      tree_.for_each_leaf_near(middle + *other, views * view_, want);
   };
   want_near(options_.look_ahead);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return node(leaf).hot; });
@@ -82,7 +90,9 @@ void CondensationTree::begin_plan(const InformationState& state) { prepare_plan(
 void CondensationTree::begin_plan_of_all(const InformationState& state) {
   plan_.hot_leaves = hot_leaves_;
   const int hub = mark_plan();
-  for (int at = 0; at < tree_.size(); ++at) mark_stale(at);
+  for (int at = 0; at < tree_.size(); ++at) {
+    if (at != held_leaf_) mark_stale(at);
+  }
   prepare_plan(state, hub);
 }
 
@@ -104,10 +114,6 @@ int CondensationTree::mark_plan() {
 }
 
 void CondensationTree::prepare_plan(const InformationState& state, int hub) {
-  for (const int leaf : changed_) {
-    if (node(leaf).next_hot) continue;
-    for_each_landmark(leaf, [&](int slot) { landmark(slot).leaves = count_leaves(state, slot); });
-  }
   for (const int at : plan_.stale) {
     note_groups(at);
     tree_.for_each_neighbour(at, [&](int other) { note_groups(other); });
@@ -120,6 +126,7 @@ void CondensationTree::prepare_plan(const InformationState& state, int hub) {
   const bool in_slices = options_.most_blocks > 0;
   plan_.most_blocks = in_slices ? std::max<std::int64_t>(options_.most_blocks, as_before / slices()) : 0;
   while (plan_.messages.size() < plan_.order.size()) plan_.messages.emplace_back();
+  note_places(state, hub);
 }
 
 void CondensationTree::put_in_order(int at) {
@@ -174,17 +181,6 @@ void CondensationTree::note_groups(int at) {
   for (const Condensed::Member& m : sent(at).message.boundary) {
     if (is_group(m.variable)) node(~m.variable).group.known_in = plan_.number;
   }
-}
-
-/// How many leaves mention a passive landmark: its own, and those before it that own a block of it.
-int CondensationTree::count_leaves(const InformationState& state, int slot) const {
-  owners_.clear();
-  owners_.push_back(landmark(slot).leaf);
-  state.for_each_neighbour(slot, [&](int other, const auto&) {
-    const int leaf = landmark(other).leaf;
-    if (leaf < owners_.front() && std::ranges::find(owners_, leaf) == owners_.end()) owners_.push_back(leaf);
-  });
-  return static_cast<int>(owners_.size());
 }
 
 }  // namespace seif

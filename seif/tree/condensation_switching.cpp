@@ -13,15 +13,10 @@ void CondensationTree::end_update(const InformationState& state) {
   if (is_ready && has_time && !plan_.has_told) tell_residuals(state);
 }
 
-/// What the messages of the plan hold of the residual, where all means are now. Once only: it takes what is
-/// loose. And all at once: a landmark that is tied on two sides of the hub has to be told of in one place.
+/// What the messages of the plan hold of the residual, where all means are now. All at once: a landmark that is tied on two sides of the hub has to be told of in one place.
 void CondensationTree::tell_residuals(const InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
-  note_zone_residual(state);
-  for (const int at : plan_.stale) {
-    if (tree_.is_leaf(at) && !node(at).hot) loosen(at);
-  }
-  for (const int g : plan_.begun) node(g).group.read = node(g).group.mean;
+  for (const int g : plan_.begun) node(g).group.read.setZero();
   for (const int at : plan_.order) tell_residual(at);
   plan_.has_told = true;
 }
@@ -33,6 +28,8 @@ bool CondensationTree::move_zone(InformationState& state) {
   plan_.is_running = false;
   plan_.has_told = false;
   const bool done = fill_zone(state);
+  for (const FrozenPiece& piece : plan_.fresh.all()) add_to_element(piece);
+  plan_.fresh.clear();
   for (const int leaf : plan_.new_leaves) attach(leaf);
   plan_.new_leaves.clear();
   return done;
@@ -44,66 +41,20 @@ void CondensationTree::reserve_boundary(Eigen::Index rows) {
   part_residual_.resize(2 * rows);
 }
 
-/// What the message of a node holds of the residual of its boundary, as that is now.
-Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(int at) {
-  const Condensed& message = sent(at).message;
-  reserve_boundary(message.b);
-  auto d = part_step_.head(message.b);
-  auto r = part_residual_.head(message.b);
-  step_of(message, d);
-  if (message.b == 0) return r;  // of a hot leaf, or a new one
-  message.residual(d, r);
-  blocks_touched_ += message.blocks();
+/// What a message or an element holds of the residual of its boundary as that is now, brought to the places of the plan.
+Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const Condensed& part) {
+  reserve_boundary(part.b);
+  auto d = part_step_.head(part.b);
+  auto r = part_residual_.head(part.b);
+  step_of(part, d);
+  part.residual(d, r);
+  if (options_.turns) {
+    list_places(part);
+    boundary_.fit(near(), places_);
+    boundary_.bring_residual(r);
+  }
+  blocks_touched_ += part.blocks();
   return r;
-}
-
-/// What the messages to the hub hold of the residual of hot landmarks.
-void CondensationTree::take_from_loose() {
-  for_each_part(tree_.hub(), [&](int source) {
-    const Condensed& m = sent(source).message;
-    const auto r = residual_of(source);
-    Eigen::Index row = 0;
-    for (const Condensed::Member& member : m.boundary) {
-      const FrontVariable v = member.variable;
-      if (!is_group(v) && landmark(v).zone_index != none) landmark(v).untold -= r.segment<2>(row);
-      row += freedom(v);
-    }
-  });
-}
-
-/// What no message holds of the residual: of hot landmarks, and where hot leaves have blocks with cold ones.
-void CondensationTree::note_zone_residual(const InformationState& state) {
-  for (int h = 0; h < zone_.size(); ++h) {
-    CondensedLandmark& p = landmark(zone_.slot(h));
-    const int position = state.position(zone_.slot(h));
-    p.untold.setZero();
-    if (position >= 0) p.untold = state.r().segment<2>(InformationState::row_of(position));
-  }
-  take_from_loose();
-  const Condensed& to_zone = sent(tree_.hub()).message;
-  reserve_boundary(to_zone.b);
-  auto d = part_step_.head(to_zone.b);
-  step_of(to_zone, d);
-  Eigen::Index row = 0;
-  for (const Condensed::Member& member : to_zone.boundary) {
-    const int slot = member.variable;
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (landmark(other).zone_index != none || landmark(other).leaf < landmark(slot).leaf) return;
-      landmark(other).untold -= Omega_so.transpose() * d.segment<2>(row);
-    });
-    row += 2;
-  }
-}
-
-/// A cold leaf whose message goes: what its message held of the residual.
-void CondensationTree::loosen(int leaf) {
-  const Condensed& m = sent(leaf).message;
-  const auto r = residual_of(leaf);
-  Eigen::Index row = 0;
-  for (const Condensed::Member& member : m.boundary) {
-    landmark(member.variable).untold += r.segment<2>(row);
-    row += 2;
-  }
 }
 
 void CondensationTree::switch_leaves() {
@@ -163,16 +114,10 @@ void CondensationTree::settle(FrontVariable v, int at) {
 void CondensationTree::condense_residual(int at, Condensed& message) {
   front_.begin_residual(message);
   if (!next_of(at).is_bare) add_part_residuals(at);
-  const bool is_hub = tree_.planned_towards(at) == none;
-  if (is_hub || tree_.is_leaf(at)) {
-    const auto add_loose = [&](FrontVariable v) {
-      if (is_group(v)) return;
-      front_.add_residual(v, landmark(v).untold);
-      if (!is_hub) landmark(v).untold.setZero();
-    };
-    for (const FrontVariable v : message.eliminated) add_loose(v);
-    for (const Condensed::Member& m : message.boundary) add_loose(m.variable);
-    for (const Condensed::Tie& tie : message.tied) add_loose(tie.variable);
+  if (tree_.planned_towards(at) == none) {
+    const auto add_own = [&](int leaf) { front_.add_residual(node(leaf).own, residual_of(node(leaf).own)); };
+    for (const int leaf : plan_.hot_leaves) add_own(leaf);
+    if (held_leaf_ != none) add_own(held_leaf_);
   }
   front_.condense_residual(message);
 }
@@ -181,68 +126,47 @@ void CondensationTree::condense_residual(int at, Condensed& message) {
 void CondensationTree::add_part_residuals(int at) {
   tree_.for_each_planned_source(at, [&](int source) {
     const SentMessage& part = next_of(source);
-    if (part.is_bare && !tree_.is_leaf(source)) {
+    if (tree_.is_leaf(source)) {
+      if (!node(source).next_hot) front_.add_residual(node(source).own, residual_of(node(source).own));
+    } else if (part.is_bare) {
       add_part_residuals(source);
     } else if (is_stale(source)) {  // it has told of the residual where the means are
       const Condensed& m = part.message;
       front_.add_residual(m, Eigen::Map<const Eigen::VectorXd>(m.s.data(), m.b));
     } else {
-      front_.add_residual(part.message, residual_of(source));
+      front_.add_residual(part.message, residual_of(part.message));
     }
   });
 }
 
-/// What has come to the hub, and what the hot leaves have among themselves; those that are not active are
-/// eliminated.
+/// What has come to the hub, and what has been frozen since; those that are not active are eliminated.
 bool CondensationTree::fill_zone(InformationState& state) {
-  const Condensed& to_zone = sent(tree_.hub()).message;
-  zone_.load(to_zone);
+  zone_.load(sent(tree_.hub()).message);
   for (int h = 0; h < zone_.size(); ++h) take_into_zone(zone_.slot(h), h);
+  if (options_.turns) bring_zone();
   for (const int leaf : hot_leaves_) {
     for_each_landmark(leaf, [&](int slot) {
       if (landmark(slot).zone_index == none) take_into_zone(slot, zone_.add(slot, landmark(slot).read));
     });
   }
+  for (const Held& held : held_) {
+    if (landmark(held.slot).zone_index == none)
+      take_into_zone(held.slot, zone_.add(held.slot, landmark(held.slot).read));
+  }
+  for (const FrozenPiece& piece : plan_.fresh.all()) bring_to_zone(piece);
+  carry_window(state);
+  anchor_zone();
   zone_indices_.clear();
   for (int h = 0; h < zone_.size(); ++h) {
-    const int slot = zone_.slot(h);
-    if (state.position(slot) < 0) {
-      zone_indices_.push_back(h);
-      zone_.add_information(h, h, state.information(slot));
-    }
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (other > slot && landmark(other).zone_index != none)
-        zone_.add_information(h, landmark(other).zone_index, Omega_so);
-    });
+    if (state.position(zone_.slot(h)) < 0) zone_indices_.push_back(h);
   }
   zone_followed_at_ = ++epoch_;
-  if (!zone_indices_.empty() && !zone_.eliminate(zone_indices_)) return false;
-  pull_zone(state, Eigen::Map<const Eigen::VectorXd>(to_zone.s.data(), to_zone.b));
-  return true;
+  return zone_indices_.empty() || zone_.eliminate(zone_indices_);
 }
 
 void CondensationTree::take_into_zone(int slot, int h) {
   landmark(slot).zone_index = h;
   zone_.set_mean(h, landmark(slot).read);
-}
-
-/// What is left of the residual s of the zone, now that nearer groups have been untied: those eliminated
-/// move, and the window gets it into its own.
-void CondensationTree::pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone) {
-  reserve_boundary(2 * zone_.size());
-  auto s = part_residual_.head(2 * zone_.size());
-  for (int h = 0; h < zone_.size(); ++h) s.segment<2>(2 * h) = landmark(zone_.slot(h)).untold;
-  s.head(to_zone.size()) = to_zone;
-  for (int h = 0; h < zone_.size(); ++h) {
-    Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-    for (const int p : zone_indices_) pull -= zone_.block(h, p) * s.segment<2>(2 * p);
-    const int position = state.position(zone_.slot(h));
-    if (position < 0) {
-      zone_.set_mean(h, zone_.mean(h) + pull);
-    } else {
-      state.r().segment<2>(InformationState::row_of(position)) = s.segment<2>(2 * h) + pull;
-    }
-  }
 }
 
 }  // namespace seif

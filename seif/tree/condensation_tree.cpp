@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "seif/tree/leaf_element.hpp"
+
 namespace seif {
 
 // Leaves.
@@ -35,7 +37,7 @@ void CondensationTree::attach(int leaf) {
 }
 
 /// The nearest hot leaf that has room, or a new one.
-int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
+int CondensationTree::leaf_for(const Eigen::Vector2d& p, const Eigen::Vector2d& home) {
   int nearest = none;
   double shortest = std::numeric_limits<double>::infinity();
   for (const int leaf : hot_leaves_) {
@@ -45,17 +47,43 @@ int CondensationTree::leaf_for(const Eigen::Vector2d& p) {
     shortest = distance;
     nearest = leaf;
   }
-  return nearest != none ? nearest : add_leaf(p);
+  return nearest != none ? nearest : add_leaf(home);
 }
 
 void CondensationTree::join(const InformationState& state, int slot) {
-  const int leaf = leaf_for(state.mean(slot));
-  landmarks_.push_back({.leaf = leaf, .next = node(leaf).first_landmark});
+  const Eigen::Vector2d home = state.mean(slot) + homes_.offset();
+  const int leaf = leaf_for(state.mean(slot), home);
+  landmarks_.push_back({.leaf = leaf, .next = node(leaf).first_landmark, .home = home});
   landmark(slot).zone_index = zone_.add(slot, state.mean(slot));
   node(leaf).first_landmark = slot;
-  tree_.widen(leaf, state.mean(slot));
+  tree_.widen(leaf, home);
   ++node(leaf).landmarks;
   ++epoch_;
+}
+
+void CondensationTree::hold(const InformationState& state, std::span<const int> slots, double sd) {
+  held_leaf_ = tree_.new_leaf();
+  nodes_.push_back({});
+  node(held_leaf_).hot = node(held_leaf_).next_hot = true;
+  held_weight_ = 1.0 / (sd * sd);
+  for (const int slot : slots) {
+    landmarks_.push_back(
+        {.leaf = held_leaf_, .next = node(held_leaf_).first_landmark, .home = state.mean(slot)});
+    node(held_leaf_).first_landmark = slot;
+    ++node(held_leaf_).landmarks;
+    landmark(slot).zone_index = zone_.add(slot, state.mean(slot));
+    held_.push_back({slot, state.mean(slot)});
+  }
+  anchor_zone();
+  ++epoch_;
+}
+
+void CondensationTree::anchor_zone() {
+  for (const Held& held : held_) {
+    const int h = landmark(held.slot).zone_index;
+    zone_.add_information(h, h, held_weight_ * Eigen::Matrix2d::Identity());
+    zone_.add_residual(h, held_weight_ * (held.at - zone_.mean(h)));
+  }
 }
 
 // The window.
@@ -83,14 +111,9 @@ bool CondensationTree::activate(InformationState& state, std::vector<int>& slots
   follow_in_zone(state);
   ++epoch_;
   if (!zone_.restore(zone_indices_)) return false;
-  for (const int h : zone_indices_) {  // its links to active landmarks are the window's from now on
-    const int slot = zone_.slot(h);
-    zone_.add_information(h, h, -state.information(slot));
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      if (state.position(other) >= 0) zone_.add_information(h, landmark(other).zone_index, -Omega_so);
-    });
-    state.set_mean(slot, zone_.mean(h));
-    state.activate(slot);
+  for (const int h : zone_indices_) {
+    state.set_mean(zone_.slot(h), zone_.mean(h));
+    state.activate(zone_.slot(h));
   }
   return true;
 }
@@ -104,40 +127,103 @@ bool CondensationTree::is_ready(int slot) const {
 bool CondensationTree::work_on_plan(InformationState& state) {
   if (plan_.has_told) return move_zone(state);
   const std::int64_t before = blocks_touched_;
-  if (!make_ready(state, plan_.most_blocks)) return false;
+  if (!make_ready(plan_.most_blocks)) return false;
   plan_.worked = blocks_touched_ - before;
   const bool is_all_at_once = options_.most_blocks == 0;
   return !is_all_at_once || move_zone(state);
 }
 
 bool CondensationTree::solve_all(InformationState& state) {
-  if (plan_.is_running && !(make_ready(state, 0) && move_zone(state))) return false;
+  if (plan_.is_running && !(make_ready(0) && move_zone(state))) return false;
   groups_allowed_ = false;
   begin_plan_of_all(state);
-  const bool done = make_ready(state, 0) && move_zone(state) && solve_window(state);
+  const bool done = make_ready(0) && move_zone(state) && solve_window(state);
   groups_allowed_ = true;
   return done;
 }
 
-bool CondensationTree::deactivate(const InformationState& state, std::span<const int> slots) {
+bool CondensationTree::freeze(const InformationState& state, std::span<const FrozenPiece> pieces) {
   follow_in_zone(state);
   ++epoch_;
   zone_indices_.clear();
-  for (const int slot : slots) {
-    const int h = landmark(slot).zone_index;
-    zone_indices_.push_back(h);
-    zone_.add_information(h, h, state.information(slot));
-    state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-      const int h_other = landmark(other).zone_index;
-      if (h_other == none || !zone_.is_active(h_other)) return;  // stands in F already
-      if (state.position(other) < 0 && other < slot) return;     // dropped too, and comes by itself
-      zone_.add_information(h, h_other, Omega_so);
-    });
+  for (const FrozenPiece& piece : pieces) {
+    zone_indices_.push_back(landmark(piece.slot).zone_index);
+    add_to_zone(piece);
+    if (plan_.is_running) {
+      plan_.fresh.add(piece);
+    } else {
+      add_to_element(piece);
+    }
   }
   return zone_.eliminate(zone_indices_);
 }
 
-/// The information on the active landmarks of all that is not in the window (w x w).
+/// Its members are active, or were before this sparsification.
+void CondensationTree::add_to_zone(const FrozenPiece& piece) {
+  const auto index_of = [&](int slot) { return landmark(slot).zone_index; };
+  const Eigen::Vector2d y = seif::residual_of(piece, [&](int slot) { return zone_.mean(index_of(slot)); });
+  for (const FrozenPiece::Member& m : piece.members) {
+    zone_.add_residual(index_of(m.slot), m.V * y);
+    for (const FrozenPiece::Member& n : piece.members) {
+      if (index_of(n.slot) <= index_of(m.slot))
+        zone_.add_information(index_of(m.slot), index_of(n.slot), m.V * n.V.transpose());
+    }
+  }
+}
+
+/// The leaf of one of its members whose element mentions most of them already: so elements stay small.
+int CondensationTree::owner_of(const FrozenPiece& piece) {
+  int best = none;
+  std::size_t least = 0;
+  const auto consider = [&](int leaf) {
+    ++visit_;
+    for (const Condensed::Member& m : node(leaf).own.boundary) landmark(m.variable).visit = visit_;
+    std::size_t missing = 0;
+    for (const FrozenPiece::Member& m : piece.members) {
+      if (landmark(m.slot).visit != visit_) ++missing;
+    }
+    if (best != none && missing >= least) return;
+    best = leaf;
+    least = missing;
+  };
+  consider(landmark(piece.slot).leaf);
+  for (const FrozenPiece::Member& m : piece.members) {
+    if (const int leaf = landmark(m.slot).leaf; leaf != best && leaf != held_leaf_) consider(leaf);
+  }
+  return best;
+}
+
+void CondensationTree::add_to_element(const FrozenPiece& piece) {
+  const int owner = owner_of(piece);
+  Condensed& element = node(owner).own;
+  element_mover_.turn(motion_in_zone(element), element);
+  ++visit_;
+  for (std::size_t i = 0; i < element.boundary.size(); ++i) {
+    CondensedLandmark& p = landmark(element.boundary[i].variable);
+    p.visit = visit_;
+    p.row = static_cast<int>(i);
+  }
+  for (const FrozenPiece::Member& m : piece.members) {
+    CondensedLandmark& p = landmark(m.slot);
+    if (p.visit == visit_) continue;
+    p.visit = visit_;
+    p.row = static_cast<int>(element.boundary.size());
+    element.boundary.push_back({m.slot, 0});
+    if (p.leaves == 0 && p.leaf != owner) {
+      Condensed& home = node(p.leaf).own;
+      home.boundary.push_back({m.slot, 0});
+      grow(front_.pool(), home);
+      Eigen::Map<Eigen::Vector2d>(&home.reference[home.reference.size() - 2]) = m.reference;
+      ++p.leaves;
+    }
+    ++p.leaves;
+  }
+  add_piece(
+      piece, [&](int slot) { return landmark(slot).row; }, front_.pool(), element);
+  blocks_touched_ += static_cast<std::int64_t>(piece.members.size() * (piece.members.size() + 1) / 2);
+}
+
+/// The information on the active landmarks of all that is frozen (w x w).
 void CondensationTree::add_condensed(const InformationState& state, Eigen::Ref<Eigen::MatrixXd> Omega) const {
   for (int p = 0; p < state.active_count(); ++p) {
     const int h = landmark(state.active(p)).zone_index;
@@ -164,13 +250,19 @@ bool CondensationTree::solve_window(InformationState& state) {
   L = M;
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(L);
   if (llt.info() != Eigen::Success) return false;
+  auto r = change_.head(w);
+  r = state.r();
+  for (int p = 0; p < state.active_count(); ++p) {
+    const int h = landmark(state.active(p)).zone_index;
+    r.segment<2>(InformationState::row_of(p)) +=
+        zone_.residual(h, [&](int slot) { return state.mean(slot); });
+  }
   auto d = step_.head(w);
-  d = state.r();
+  d = r;
   llt.solveInPlace(d);
-  factor_.chi_square_drop = state.r().dot(d);
-  auto dr = change_.head(w);
-  dr.noalias() = M * d;
-  state.move_window(d, dr);
+  factor_.chi_square_drop = r.dot(d);
+  r.noalias() = state.Omega() * d;
+  state.move_window(d, r);
   state.touch(2 * state.window_blocks());
   ++epoch_;
   return true;
@@ -245,50 +337,44 @@ void CondensationTree::read(const InformationState& state, int at) const {
   }
   const Condensed& message = sent(at).message;
   if (message.e == 0 && message.tied.empty()) return;
-  find_step(message);
+  const BodyMotion motion = find_step(message);
   Eigen::Index row = 0;
   for (const FrontVariable v : message.eliminated) {
     if (is_group(v)) {
-      const LandmarkGroup& group = node(~v).group;
+      LandmarkGroup const& group = node(~v).group;
       group.read = group.mean + read_step_.segment<3>(row);
+      turn_group(motion, group);
     } else {
-      landmark(v).read = landmark(v).mean + read_step_.segment<2>(row);
+      landmark(v).read = motion.moved(landmark(v).mean + read_step_.segment<2>(row));
     }
     row += freedom(v);
   }
   for (const Condensed::Tie& tie : message.tied) {
     const Eigen::Vector3d d = read_step_.segment<3>(tie.row);
-    const Eigen::Vector2d t = d.head<2>() + d(2) * Eigen::Vector2d(-tie.lever.y(), tie.lever.x());
+    const Eigen::Vector2d t = d.head<2>() + lever_step(tie.lever, d(2));
     if (is_group(tie.variable)) {
-      node(~tie.variable).group.read = tie.reference + Eigen::Vector3d(t.x(), t.y(), d(2));
+      LandmarkGroup const& group = node(~tie.variable).group;
+      group.read = tie.reference + Eigen::Vector3d(t.x(), t.y(), d(2));
+      turn_group(motion, group);
     } else {
-      landmark(tie.variable).read = tie.reference.head<2>() + t;
+      landmark(tie.variable).read = motion.moved(tie.reference.head<2>() + t);
     }
   }
 }
 
 /// The steps of E and B since the message was sent, in read_step_: d_E = L^-T (y - G d_B).
-void CondensationTree::find_step(const Condensed& message) const {
+BodyMotion CondensationTree::find_step(const Condensed& message) const {
   const Eigen::Index e = message.e;
   const Eigen::Index b = message.b;
   if (read_step_.size() < e + b) read_step_.resize(2 * (e + b));
   auto d_E = read_step_.head(e);
   auto d_B = read_step_.segment(e, b);
-  step_of(message, d_B);
+  const BodyMotion motion = step_of(message, d_B);
   const auto columns = message.L_and_G();
   d_E = Eigen::Map<const Eigen::VectorXd>(message.y.data(), e);
   d_E.noalias() -= columns.bottomRows(b).transpose() * d_B;
   columns.topRows(e).triangularView<Eigen::Lower>().transpose().solveInPlace(d_E);
-}
-
-/// How far the boundary of a message has gone on since it was sent.
-void CondensationTree::step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const {
-  Eigen::Index row = 0;
-  for (const Condensed::Member& m : message.boundary) {
-    read_mean(m.variable, &d(row));
-    row += freedom(m.variable);
-  }
-  d -= Eigen::Map<const Eigen::VectorXd>(message.reference.data(), message.b);
+  return motion;
 }
 
 Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) const {
@@ -312,7 +398,8 @@ int CondensationTree::settled_at(FrontVariable v) const {
 std::size_t CondensationTree::memory_bytes() const {
   std::size_t bytes = tree_.memory_bytes() + nodes_.memory_bytes() + landmarks_.memory_bytes() +
                       front_.memory_bytes() + zone_.memory_bytes() + to_zone_.message.memory_bytes();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) bytes += nodes_[i].sent.message.memory_bytes();
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    bytes += nodes_[i].sent.message.memory_bytes() + nodes_[i].own.memory_bytes();
   for (const SentMessage& planned : plan_.messages) bytes += sizeof(planned) + planned.message.memory_bytes();
   return bytes;
 }

@@ -18,6 +18,7 @@
 //           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,8 +27,11 @@
 
 #include "seif/information_state.hpp"
 #include "seif/tree/condensation_nodes.hpp"
+#include "seif/tree/homes.hpp"
 #include "seif/tree/hot_zone.hpp"
+#include "seif/tree/leaf_element.hpp"
 #include "seif/tree/leaf_tree.hpp"
+#include "seif/tree/moved_boundary.hpp"
 #include "seif/window_factor.hpp"
 
 namespace seif {
@@ -38,6 +42,8 @@ struct CondensationOptions {
   /// [-] Unknowns of a front above which landmarks far from the robot are tied to rigid groups.
   int most_unknowns = 200;
   double grain = 0.25;  // [-] distance over size of the coarsest groups
+  /// What was frozen turns with the part of the map that it is in; otherwise it stays as it was turned then.
+  bool turns = true;
   /// [-] Blocks of messages that one update prepares for the next zone; more if the robot would arrive before the
   /// zone is ready, and at least one message. 0: all at once, as soon as a landmark outside the zone is seen.
   int most_blocks = 5'000;
@@ -45,6 +51,16 @@ struct CondensationOptions {
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 1.0;    // leaves so near to it are wanted in the zone,
   double zone_ahead = 1.35;   // and those so near are taken into the next one
+};
+
+/// All that is frozen: blocks of pairs of landmarks, of which one pair may have several, and the residual (2N).
+struct FrozenInformation {
+  struct Block {
+    int slot, other;
+    Eigen::Matrix2d Omega;
+  };
+  std::vector<Block> blocks;
+  Eigen::VectorXd r;
 };
 
 /// The means of passive landmarks are those of mean(); the state holds old ones. At these means r is zero for all
@@ -59,8 +75,16 @@ class CondensationTree {
   /// farthest observation [m]. False if a matrix is not positive definite, as below.
   [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots, double range);
 
+  /// From now on nothing turns any more (CondensationOptions::turns).
+  void keep_fixed() { options_.turns = false; }
+  bool turns() const { return options_.turns; }
+
   /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
   [[nodiscard]] bool solve_all(InformationState& state);
+
+  /// Landmarks that have just joined the map and stay in the zone for ever, at known places: before all others.
+  /// What is known of the places is added to the zone, where it does not turn.
+  void hold(const InformationState& state, std::span<const int> slots, double sd);
 
   /// A landmark that has just joined the map, before it becomes active.
   void join(const InformationState& state, int slot);
@@ -71,8 +95,8 @@ class CondensationTree {
   /// The factor of the last solve_window().
   const WindowFactor& window_factor() const { return factor_; }
 
-  /// After these landmarks have left the window.
-  [[nodiscard]] bool deactivate(const InformationState& state, std::span<const int> slots);
+  /// After landmarks have left the window, with what was frozen with them.
+  [[nodiscard]] bool freeze(const InformationState& state, std::span<const FrozenPiece> pieces);
 
   /// After the last solve_window() of an update; without it the zone never moves, unless most_blocks is 0.
   /// Until the next activate() no mean of a landmark may change, except by rounding.
@@ -88,6 +112,9 @@ class CondensationTree {
   void for_each_in_zone(Visit&& visit) const {
     for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
   }
+  /// What is frozen says where its landmarks are now, without any group. Off the live path.
+  FrozenInformation frozen_information(const InformationState& state) const;
+
   /// The covariance of [pose | landmarks], from (Omega + S)^-1 and from how inactive landmarks follow, to `out`
   /// (3+2m x 3+2m).
   void covariance(const InformationState& state, std::span<const int> slots,
@@ -118,37 +145,15 @@ class CondensationTree {
     for (int slot = node(leaf).first_landmark; slot != none; slot = landmark(slot).next) visit(slot);
   }
 
-  /// Calls visit(slot, other, Omega) for each block that a leaf owns; a block of two leaves belongs to the older.
-  template <class Visit>
-  void for_each_owned_block(const InformationState& state, int leaf, Visit&& visit) const {
-    for_each_landmark(leaf, [&](int slot) {
-      visit(slot, slot, state.information(slot));
-      state.for_each_neighbour(slot, [&](int other, const auto& Omega_so) {
-        const int leaf_of_other = landmark(other).leaf;
-        if (leaf_of_other < leaf || (leaf_of_other == leaf && other < slot)) return;
-        visit(slot, other, Omega_so);
-      });
-    });
-  }
-  /// Visits the nodes whose messages reach a node, directly or through bare nodes.
-  template <class Visit>
-  void for_each_part(int at, Visit&& visit) const {
-    tree_.for_each_source(at, [&](int source) {
-      if (sent(source).is_bare && !tree_.is_leaf(source)) {
-        for_each_part(source, visit);
-      } else {
-        visit(source);
-      }
-    });
-  }
-
   // The first broken invariant of one part, if any.
-  std::optional<std::string> broken_landmark(const InformationState& state, int slot) const;
+  std::optional<std::string> broken_landmark(int slot) const;
+  int count_leaves(int slot) const;
   std::optional<std::string> broken_message(int at) const;
   std::optional<std::string> broken_group(int group, int at) const;
 
   // Planning.
   Eigen::Vector2d zone_middle(const Pose2& pose) const;
+  void note_homes(const InformationState& state);
   void note_travel(const InformationState& state);
   int slices() const;
   bool choose_hot_leaves(const InformationState& state, std::span<const int> slots);
@@ -164,23 +169,23 @@ class CondensationTree {
   void mark_stale(int at);
   void mark_expired(int at);
   void note_groups(int at);
-  int count_leaves(const InformationState& state, int slot) const;
+  void note_group_places(int at);
 
   // Sending.
   bool work_on_plan(InformationState& state);
-  bool make_ready(const InformationState& state, std::int64_t most_blocks);
-  bool send(const InformationState& state, int from);
+  bool make_ready(std::int64_t most_blocks);
+  bool send(int from);
   void gather(int at);
-  int listed(Condensed& part, int slot, int balance);
-  void list_leaf(const InformationState& state, int leaf, Condensed& part);
-  void list_links(const InformationState& state);
+  void add_message(const Condensed& message, bool is_new);
+  void add_element(int leaf);
   bool is_complete(int at, FrontVariable v, int balance) const;
-  bool condense(const InformationState& state, int at, SentMessage& next);
+  bool condense(int at, SentMessage& next);
 
   // Grouping.
   double distance_ratio(int group);
-  void tie_front(const InformationState& state, int at, SentMessage& next);
-  void tie(const InformationState& state, std::size_t index, int target, std::vector<int>& groups);
+  void tie_front(int at, SentMessage& next);
+  void begin_group(int target);
+  void tie(std::size_t index, int target, std::vector<int>& groups);
   void note_reach(int at, SentMessage& next);
   int count_unknowns(double ratio);
   int group_for(FrontVariable v, double ratio);
@@ -189,9 +194,6 @@ class CondensationTree {
   // Switching.
   void tell_residuals(const InformationState& state);
   bool move_zone(InformationState& state);
-  void note_zone_residual(const InformationState& state);
-  void take_from_loose();
-  void loosen(int leaf);
   void switch_leaves();
   void tell_residual(int at);
   void replace(int at);
@@ -201,12 +203,16 @@ class CondensationTree {
   void forget(SentMessage& sent);
   bool fill_zone(InformationState& state);
   void take_into_zone(int slot, int h);
-  void pull_zone(InformationState& state, const Eigen::Ref<const Eigen::VectorXd>& to_zone);
+  void anchor_zone();
+  void add_to_zone(const FrozenPiece& piece);
+  void bring_to_zone(const FrozenPiece& piece);
+  int owner_of(const FrozenPiece& piece);
+  void add_to_element(const FrozenPiece& piece);
   void reserve_boundary(Eigen::Index rows);
-  Eigen::VectorXd::SegmentReturnType residual_of(int at);
+  Eigen::VectorXd::SegmentReturnType residual_of(const Condensed& part);
 
   // The live path.
-  int leaf_for(const Eigen::Vector2d& p);
+  int leaf_for(const Eigen::Vector2d& p, const Eigen::Vector2d& home);
   int add_leaf(const Eigen::Vector2d& p_world);
   void attach(int leaf);
   bool is_ready(int slot) const;
@@ -216,19 +222,50 @@ class CondensationTree {
   const Eigen::VectorXd& read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
   void read_mean(FrontVariable v, double* mean) const;
-  void step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
-  void find_step(const Condensed& message) const;
+  BodyMotion find_step(const Condensed& message) const;
+  // Places.
+  Eigen::Vector2d plan_place(FrontVariable v) const {
+    return is_group(v) ? node(~v).group.place : landmark(v).place;
+  }
+  Eigen::Vector2d place(FrontVariable v, const double* mean) const;
+  Eigen::Vector2d present_place(FrontVariable v) const;
+  BodyMotion step_of(const Condensed& message, Eigen::Ref<Eigen::VectorXd> d) const;
+  MovedPlace moved_place(FrontVariable v, const double* reference, const Eigen::Vector2d& now,
+                         double turn) const;
+  Eigen::Vector2d lever_step(const Eigen::Vector2d& lever, double turn) const;
+  void turn_group(const BodyMotion& motion, const LandmarkGroup& group) const;
+  BodyMotion motion_in_zone(const Condensed& element) const;
+  void add_element(const InformationState& state, const Condensed& element, FrozenInformation& all) const;
+  void bring_piece(std::span<const MovedPlace> places, FrozenPiece& piece) const;
+  void note_places(const InformationState& state, int hub);
+  void note_place(const InformationState& state, FrontVariable v);
+  void note_places_of_groups(const InformationState& state, int at);
+  void note_places_of_sources(const InformationState& state, int at);
+  void note_places_of(const InformationState& state, Condensed& part);
+  void carry_element(const InformationState& state, Condensed& element);
+  void list_places(const Condensed& part);
+  void bring_zone();
+  void carry_window(InformationState& state);
+  /// Two landmarks that are seen at the same time are nearer. [m]
+  double near() const { return 2.0 * view_; }
 
   CondensationOptions options_;
+  Homes homes_;
   LeafTree tree_;
   Front front_;  // before what holds its arrays
   ChunkedArray<Node> nodes_;
   ChunkedArray<CondensedLandmark> landmarks_;  // by slot
   HotZone zone_;
   SentMessage to_zone_;  // by the hub
-  Condensed links_;      // of the hub that is being made ready
   CondensationPlan plan_;
   std::vector<int> hot_leaves_;
+  struct Held {
+    int slot;
+    Eigen::Vector2d at;  // p_world [m]
+  };
+  std::vector<Held> held_;
+  int held_leaf_ = none;      // beside the tree; always hot
+  double held_weight_ = 0.0;  // [1/m^2]
   std::vector<int> changed_;  // leaves that will have become hot or cold, or are new
   std::vector<int> zone_indices_;
   std::vector<int> wanted_;            // slots
@@ -236,19 +273,23 @@ class CondensationTree {
   double view_ = 0.0;                  // how far the robot sees [m]
   double travel_ = 0.0;                // how far the middle of the zone goes in an update [m]
   Eigen::Vector2d last_middle_ = Eigen::Vector2d::Zero();
-  mutable std::vector<int> owners_;
   std::int64_t epoch_ = 1;
   std::int64_t zone_followed_at_ = 0;  // epoch, as below
   mutable std::int64_t zone_read_at_ = 0;
   mutable Eigen::VectorXd zone_read_, read_step_;  // with room to grow [m]
   int scan_ = 0, visit_ = 0;
-  bool groups_allowed_ = true;   // to be begun
-  int fronts_ = 0, counts_ = 0;  // [-] so far: marks of groups
-  bool any_present_ = false;     // groups in the front, by what others have sent
-  std::vector<int> targets_;     // by variable of the front: the node whose group it is tied to, or none
-  Eigen::MatrixXd M_;            // (w x w), with room to grow
-  Eigen::VectorXd part_step_, part_residual_;  // of a boundary, with room to grow
-  Eigen::VectorXd step_, change_;              // (w), with room to grow
+  bool groups_allowed_ = true;      // to be begun
+  int fronts_ = 0, counts_ = 0;     // [-] so far: marks of groups
+  bool any_present_ = false;        // groups in the front, by what others have sent
+  std::vector<int> targets_;        // by variable of the front: the node whose group it is tied to, or none
+  Eigen::MatrixXd M_;               // (w x w), with room to grow
+  mutable MovedBoundary boundary_;  // of the part that is being looked at, as the next three
+  std::vector<MovedPlace> places_;
+  FrozenPiece piece_;
+  Eigen::VectorXd part_step_, part_residual_;  // with room to grow
+  mutable Eigen::MatrixX2d V_;                 // of a piece, with room to grow
+  ElementMover element_mover_;
+  Eigen::VectorXd step_, change_;  // (w), with room to grow
   WindowFactor factor_;
   std::int64_t blocks_touched_ = 0, waited_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "seif/tree/array_pool.hpp"
@@ -23,11 +24,6 @@ struct Condensed {
     /// [-] Leaves behind that hold blocks of it. Once its own leaf is among them, minus the number of all such leaves.
     int balance;
   };
-  /// A block of the matrix of B, by indices in the boundary; for i == j the lower triangle counts.
-  struct Block {
-    int i, j;
-    Eigen::Matrix<double, 2, 2, Eigen::DontAlign> Omega_ij;
-  };
   struct Tie {
     FrontVariable variable;
     int row;  // of its group, in E and B
@@ -37,7 +33,6 @@ struct Condensed {
   std::vector<FrontVariable> eliminated;
   std::vector<Member> boundary;
   std::vector<Tie> tied;
-  std::vector<Block> S_blocks;    // S, where nothing has been eliminated, of landmarks alone
   int e = 0, b = 0;               // [-] rows of E, of B
   ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
   ArrayPool::Array S;             // (b x b) lower triangle, by column
@@ -46,8 +41,13 @@ struct Condensed {
   std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
 
   auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
+  /// S in full to `full` (b x b), and back.
+  void unpack(Eigen::Ref<Eigen::MatrixXd> full) const;
+  void pack(const Eigen::Ref<const Eigen::MatrixXd>& full);
   /// The number of its distinct blocks.
   std::int64_t blocks() const;
+  /// Adds a 2 x 2 block to S at (row, col), row >= col; on the diagonal its lower triangle.
+  void add_to_S(Eigen::Index row, Eigen::Index col, const Eigen::Matrix2d& block);
   /// s - S d: the residual of B after its mean has moved by d (b) from its reference.
   void residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const;
   void clear();

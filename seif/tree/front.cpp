@@ -2,69 +2,15 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 namespace seif {
-
-void Condensed::clear() {
-  eliminated.clear();
-  boundary.clear();
-  tied.clear();
-  S_blocks.clear();
-  e = b = 0;
-  factor.clear();
-  S.clear();
-  y.clear();
-  s.clear();
-  reference.clear();
-}
-
-void Condensed::take(Condensed& other) {
-  eliminated = other.eliminated;
-  boundary = other.boundary;
-  tied = other.tied;
-  S_blocks = other.S_blocks;
-  e = other.e;
-  b = other.b;
-  factor = std::move(other.factor);
-  S = std::move(other.S);
-  y = other.y;
-  s = other.s;
-  reference = other.reference;
-}
-
-void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<Eigen::VectorXd> r) const {
-  r = Eigen::Map<const Eigen::VectorXd>(s.data(), b);
-  for (const Block& block : S_blocks) {
-    r.segment<2>(2 * block.i) -= block.Omega_ij * d.segment<2>(2 * block.j);
-    if (block.i != block.j)
-      r.segment<2>(2 * block.j) -= block.Omega_ij.transpose() * d.segment<2>(2 * block.i);
-  }
-  if (!S_blocks.empty()) return;
-  const double* column = S.data();
-  for (Eigen::Index j = 0; j < b; ++j) {
-    const Eigen::Map<const Eigen::VectorXd> S_j(column, b - j);
-    r(j) -= S_j.dot(d.tail(b - j));
-    r.tail(b - j - 1) -= d(j) * S_j.tail(b - j - 1);
-    column += b - j;
-  }
-}
-
-std::int64_t Condensed::blocks() const {
-  if (!S_blocks.empty()) return static_cast<std::int64_t>(S_blocks.size());
-  const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
-  return n * (n + 1) / 2;
-}
-
-std::size_t Condensed::memory_bytes() const {
-  return S_blocks.capacity() * sizeof(Block) + boundary.capacity() * sizeof(Member) +
-         eliminated.capacity() * sizeof(FrontVariable) + tied.capacity() * sizeof(Tie) +
-         (y.capacity() + s.capacity() + reference.capacity()) * sizeof(double);
-}
 
 void Front::begin() {
   ++front_;
   variables_.clear();
   parts_.clear();
+  places_.clear();
 }
 
 Front::Rows& Front::rows_of(FrontVariable v) {
@@ -87,7 +33,7 @@ std::size_t Front::index_of(FrontVariable v) {
 void Front::add(const Condensed& part) {
   if (part.boundary.empty()) return;
   for (const Condensed::Member& m : part.boundary) variables_[index_of(m.variable)].balance += m.balance;
-  parts_.push_back(&part);
+  parts_.push_back({&part, -1});
 }
 
 void Front::tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever) {
@@ -167,42 +113,40 @@ void Front::add_product(const Target& i, const Target& j, double value, bool dia
   if (i.second >= 0 && j.second >= 0) add(i.second, j.second, i.weight * j.weight * value);
 }
 
-void Front::add_blocks(const Condensed& part) {
-  for (const Condensed::Block& block : part.S_blocks) {
-    const Target* const rows = &targets_[2 * static_cast<std::size_t>(block.i)];
-    const Target* const cols = &targets_[2 * static_cast<std::size_t>(block.j)];
-    const bool diagonal = block.i == block.j;
-    for (int a = 0; a < 2; ++a) {
-      for (int b = 0; b < (diagonal ? a + 1 : 2); ++b) {
-        if (any_tied_) {
-          add_product(rows[a], cols[b], block.Omega_ij(a, b), diagonal && a == b);
-        } else {
-          entry(rows[a].row, cols[b].row) += block.Omega_ij(a, b);
-        }
-      }
-    }
-  }
-}
-
 void Front::assemble(Condensed& out) {
   give_rows(out);
   clear_matrix(out);
-  for (const Condensed* part : parts_) {
-    find_targets(*part);
-    if (!part->S_blocks.empty()) {
-      add_blocks(*part);
-    } else if (any_tied_) {
-      add_tied(*part);
+  for (const Part& part : parts_) {
+    find_targets(*part.condensed);
+    const double* const S = in_its_place(part);
+    if (any_tied_) {
+      add_tied(*part.condensed, S);
     } else {
-      add_untied(*part);
+      add_untied(S);
     }
   }
   fold(of_E_, size_, e_);
   fold(of_B_.data(), out.b, out.b);
 }
 
-void Front::add_untied(const Condensed& part) {
-  const double* S = part.S.data();
+/// The lower triangle of S, brought to where its variables are.
+const double* Front::in_its_place(const Part& p) {
+  const Condensed& part = *p.condensed;
+  if (p.first_place < 0) return part.S.data();
+  const Eigen::Index b = part.b;
+  if (square_.size() < b * b) square_.resize(2 * b * b);
+  if (turned_.size() < b * (b + 1) / 2) turned_.resize(b * (b + 1));
+  Eigen::Map<Eigen::MatrixXd> S(square_.data(), b, b);
+  part.unpack(S);
+  moved_.fit(near_,
+             std::span(places_).subspan(static_cast<std::size_t>(p.first_place), part.boundary.size()));
+  moved_.bring(S);
+  double* to = turned_.data();
+  for (Eigen::Index col = 0; col < b; ++col) to = std::copy_n(&S(col, col), b - col, to);
+  return turned_.data();
+}
+
+void Front::add_untied(const double* S) {
   for (std::size_t j = 0; j < targets_.size(); ++j) {
     const std::ptrdiff_t col = targets_[j].row;
     if (col < e_) {
@@ -237,7 +181,7 @@ void Front::fold(double* square, Eigen::Index stride, Eigen::Index n) {
 
 /// P' S P. With S = H + H', H its lower triangle with half the diagonal, that is K + K', K' = (H P)' P: sums
 /// of whole columns, twice, as long as the list of rows that the part moves.
-void Front::add_tied(const Condensed& part) {
+void Front::add_tied(const Condensed& part, const double* S) {
   list_moved_rows();
   const auto n = static_cast<Eigen::Index>(moved_rows_.size());
   const Eigen::Index room = n * std::max<Eigen::Index>(part.b, n);
@@ -247,7 +191,6 @@ void Front::add_tied(const Condensed& part) {
   }
   Eigen::Map<Eigen::MatrixXd> HP(half_.data(), part.b, n);
   HP.setZero();
-  const double* S = part.S.data();
   for (Eigen::Index j = 0; j < part.b; ++j) {
     const Eigen::Map<const Eigen::VectorXd> below(S, part.b - j);
     const auto add_column = [&](int row, double weight) {
@@ -381,7 +324,9 @@ void Front::condense_residual(Condensed& front) {
 std::size_t Front::memory_bytes() const {
   return pool_->memory_bytes() + landmarks_.memory_bytes() + groups_.memory_bytes() +
          variables_.capacity() * sizeof(Variable) +
-         static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size()) * sizeof(double);
+         static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size() + square_.size() +
+                                  turned_.size()) *
+             sizeof(double);
 }
 
 }  // namespace seif

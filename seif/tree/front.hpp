@@ -14,11 +14,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "seif/chunked_array.hpp"
 #include "seif/tree/array_pool.hpp"
 #include "seif/tree/condensed.hpp"
+#include "seif/tree/moved_boundary.hpp"
 
 namespace seif {
 
@@ -37,9 +39,18 @@ class Front {
   Front& operator=(Front&&) = delete;  // arrays of the pool that goes may be in use
   ~Front() = default;
 
+  /// Of MovedBoundary. [m]
+  void set_near(double near) { near_ = near; }
   void begin();
   /// Adds the result of another front, or a part of Omega.
   void add(const Condensed& part);
+  /// The same, brought to where its variables are.
+  void add(const Condensed& part, std::span<const MovedPlace> places) {
+    add(part);
+    if (part.boundary.empty()) return;
+    parts_.back().first_place = static_cast<int>(places_.size());
+    places_.insert(places_.end(), places.begin(), places.end());
+  }
   /// All variables so far, in the order in which they were added.
   const std::vector<Variable>& variables() const { return variables_; }
   /// Ties a variable to a group, which is added to the front if it is missing.
@@ -71,6 +82,8 @@ class Front {
   /// Sets y and s.
   void condense_residual(Condensed& front);
 
+  /// Of the arrays of its results.
+  ArrayPool& pool() { return *pool_; }
   /// The number of unknowns. [-]
   int size() const { return size_; }
   std::size_t memory_bytes() const;
@@ -99,9 +112,13 @@ class Front {
   std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
   double& entry(int i, int j);
   void add_product(const Target& i, const Target& j, double value, bool diagonal);
-  void add_blocks(const Condensed& part);
-  void add_untied(const Condensed& part);
-  void add_tied(const Condensed& part);
+  struct Part {
+    const Condensed* condensed;
+    int first_place;  // among places_, or -1
+  };
+  const double* in_its_place(const Part& part);
+  void add_untied(const double* S);
+  void add_tied(const Condensed& part, const double* S);
   void list_moved_rows();
   void add_to_rows(const Target& target, double value);
   void assemble(Condensed& out);
@@ -114,15 +131,18 @@ class Front {
   int size_ = 0;
   ChunkedArray<Rows> landmarks_, groups_;
   std::vector<Variable> variables_;
-  std::vector<const Condensed*> parts_;
-  std::vector<Target> targets_;  // of the rows of one part
-  bool any_tied_ = false;        // among them
+  std::vector<Part> parts_;
+  std::vector<MovedPlace> places_;  // of the variables of such parts
+  std::vector<Target> targets_;     // of the rows of one part
+  bool any_tied_ = false;           // among them
   std::vector<int> moved_rows_, column_of_row_;
   int e_ = 0;               // rows of E
   double* of_E_ = nullptr;  // (n x e) columns of the matrix: in the message that is being made
   Eigen::VectorXd of_B_;    // (b x b), with room to grow, as all below
-  Eigen::VectorXd half_, transposed_;
+  Eigen::VectorXd half_, transposed_, square_, turned_;
   Eigen::VectorXd r_;
+  double near_ = 0.0;
+  MovedBoundary moved_;
 };
 
 }  // namespace seif

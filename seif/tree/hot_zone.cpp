@@ -11,6 +11,7 @@ void HotZone::reserve(int landmarks) {
   const Eigen::Index room = std::max<Eigen::Index>(rows, 2 * F_.rows());
   F_.conservativeResizeLike(Eigen::MatrixXd::Zero(room, room));
   mean_.conservativeResize(room);
+  s_.conservativeResize(room);
   columns_.resize(room, room);
   swept_.resize(room, room);
   pivot_.resize(room, room);
@@ -19,20 +20,26 @@ void HotZone::reserve(int landmarks) {
   rest_.reserve(static_cast<std::size_t>(room / 2));
 }
 
-void HotZone::load(const Condensed& without) {
+void HotZone::load(const Condensed& all) {
   members_.clear();
-  reserve(static_cast<int>(without.boundary.size()));
-  for (const Condensed::Member& m : without.boundary)
-    members_.push_back({.slot = m.variable, .active = true});
+  reserve(static_cast<int>(all.boundary.size()));
+  for (const Condensed::Member& m : all.boundary) members_.push_back({.slot = m.variable, .active = true});
   const auto n = 2 * static_cast<Eigen::Index>(size());
-  const double* S = without.S.data();
+  const double* S = all.S.data();
   for (Eigen::Index col = 0; col < n; ++col) {
     F_.col(col).segment(col, n - col) = Eigen::Map<const Eigen::VectorXd>(S, n - col);
     F_.row(col).segment(col, n - col) = F_.col(col).segment(col, n - col);
     S += n - col;
   }
   mean_.head(n).setZero();
-  blocks_touched_ += without.blocks();
+  s_.head(n) = Eigen::Map<const Eigen::VectorXd>(all.s.data(), n);
+  blocks_touched_ += all.blocks();
+}
+
+void HotZone::bring(MovedBoundary& moved) {
+  const Eigen::Index n = 2 * size();
+  moved.bring(F_.topLeftCorner(n, n));
+  moved.bring_residual(s_.head(n));
 }
 
 int HotZone::add(int slot, const Eigen::Vector2d& mean) {
@@ -42,6 +49,7 @@ int HotZone::add(int slot, const Eigen::Vector2d& mean) {
   F_.middleCols<2>(2 * index).topRows(2 * index + 2).setZero();
   F_.middleRows<2>(2 * index).leftCols(2 * index + 2).setZero();
   set_mean(index, mean);
+  s_.segment<2>(2 * index).setZero();
   return index;
 }
 
@@ -112,6 +120,32 @@ bool HotZone::sweep(std::span<const int> indices, double sign) {
   return true;
 }
 
+bool HotZone::eliminate(std::span<const int> indices) {
+  if (!sweep(indices, 1.0)) return false;
+  for (int index = 0; index < size(); ++index) {
+    Eigen::Vector2d pull = Eigen::Vector2d::Zero();
+    for (const int p : indices) pull -= block(index, p) * s_.segment<2>(2 * p);
+    if (is_active(index)) {
+      s_.segment<2>(2 * index) += pull;
+    } else {
+      mean_.segment<2>(2 * index) += pull;
+    }
+  }
+  for (const int p : indices) s_.segment<2>(2 * p).setZero();
+  return true;
+}
+
+void HotZone::set_means(const Eigen::VectorXd& means) {
+  const Eigen::Index n = 2 * size();
+  for (int a = 0; a < size(); ++a) {
+    if (!is_active(a)) continue;
+    for (int b = 0; b < size(); ++b) {
+      if (is_active(b)) s_.segment<2>(2 * a) -= block(a, b) * (means.segment<2>(2 * b) - mean(b));
+    }
+  }
+  mean_.head(n) = means.head(n);
+}
+
 /// -W' d_A of one index in P.
 Eigen::Vector2d HotZone::step_of(int index, const Eigen::VectorXd& d) const {
   Eigen::Vector2d d_P = Eigen::Vector2d::Zero();
@@ -122,7 +156,7 @@ Eigen::Vector2d HotZone::step_of(int index, const Eigen::VectorXd& d) const {
 }
 
 std::size_t HotZone::memory_bytes() const {
-  return sizeof(double) * static_cast<std::size_t>(F_.size() + mean_.size() + columns_.size() +
+  return sizeof(double) * static_cast<std::size_t>(F_.size() + mean_.size() + s_.size() + columns_.size() +
                                                    swept_.size() + pivot_.size() + change_.size()) +
          members_.capacity() * sizeof(Member);
 }

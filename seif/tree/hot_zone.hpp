@@ -1,6 +1,7 @@
 // The landmarks around the robot, with the information of all others about them: the hub of the tree.
 //
-// F (2h x 2h) holds all information about the zone's h landmarks except that of the window (InformationState).
+// F (2h x 2h) holds all frozen information about the zone's h landmarks: everything but that of the window
+// (InformationState). s (2h) is its residual where the means were last written down; of P it is zero.
 // Active landmarks, A, are linked to the robot. The others, P, are eliminated by the sweep operator, which leaves
 // in place how they follow:
 //
@@ -19,16 +20,20 @@
 #include <vector>
 
 #include "seif/tree/front.hpp"
+#include "seif/tree/moved_boundary.hpp"
 
 namespace seif {
 
 class HotZone {
  public:
-  /// Loads the landmarks on the boundary of `without`, the condensed rest of the map; all in A, at mean zero.
-  void load(const Condensed& without);
+  /// Loads the landmarks on the boundary of `all`, the condensed map, with its residual; all in A, at mean zero.
+  void load(const Condensed& all);
 
   /// Adds a landmark to A that only the window knows. Returns its index in the zone.
   int add(int slot, const Eigen::Vector2d& mean);
+
+  /// Before any landmark is in P.
+  void bring(MovedBoundary& moved);
 
   int size() const { return static_cast<int>(members_.size()); }
   int slot(int index) const { return member(index).slot; }
@@ -38,9 +43,11 @@ class HotZone {
   auto block(int a, int b) const { return F_.block<2, 2>(2 * a, 2 * b); }
   /// Adds to both blocks of a pair; to one block if a and b are the same.
   void add_information(int a, int b, const Eigen::Matrix2d& Omega_ab);
+  void add_residual(int index, const Eigen::Vector2d& s) { s_.segment<2>(2 * index) += s; }
 
-  /// From A to P, or from P to A. False, with nothing changed, if their block is not positive definite.
-  [[nodiscard]] bool eliminate(std::span<const int> indices) { return sweep(indices, 1.0); }
+  /// From A to P, which moves them to where their residual is zero, or from P to A. False, with nothing changed,
+  /// if their block is not positive definite.
+  [[nodiscard]] bool eliminate(std::span<const int> indices);
   [[nodiscard]] bool restore(std::span<const int> indices) { return sweep(indices, -1.0); }
 
   Eigen::Vector2d mean(int index) const { return mean_.segment<2>(2 * index); }
@@ -59,7 +66,17 @@ class HotZone {
     }
     means.head(n) += mean_.head(n);
   }
-  void set_means(const Eigen::VectorXd& means) { mean_.head(2 * size()) = means.head(2 * size()); }
+  /// Writes these means down, which follow() has computed, and the residual there.
+  void set_means(const Eigen::VectorXd& means);
+  /// The residual of an index in A after A has moved to mean_of(slot) and P has followed.
+  template <class MeanOf>
+  Eigen::Vector2d residual(int index, MeanOf&& mean_of) const {
+    Eigen::Vector2d s = s_.segment<2>(2 * index);
+    for (int a = 0; a < size(); ++a) {
+      if (is_active(a)) s -= block(index, a) * (mean_of(slot(a)) - mean(a));
+    }
+    return s;
+  }
 
   std::int64_t blocks_touched() const { return blocks_touched_; }
   std::size_t memory_bytes() const;
@@ -77,8 +94,9 @@ class HotZone {
   Eigen::Vector2d step_of(int index, const Eigen::VectorXd& d) const;
 
   std::vector<Member> members_;
-  Eigen::MatrixXd F_;      // symmetric, with room to grow
-  Eigen::VectorXd mean_;   // with room to grow, as all below [m]
+  Eigen::MatrixXd F_;     // symmetric, with room to grow
+  Eigen::VectorXd mean_;  // with room to grow, as all below [m]
+  Eigen::VectorXd s_;
   std::vector<int> rest_;  // indices that a sweep does not take
   Eigen::MatrixXd columns_, swept_, pivot_, change_;
   std::int64_t blocks_touched_ = 0;

@@ -2,6 +2,7 @@
 
 #include "seif/estimator.hpp"
 #include "seif/observation_factor.hpp"
+#include "seif/start_points.hpp"
 
 namespace seif {
 
@@ -11,7 +12,9 @@ void TreeBelief::begin_association(double t) {
 
 void TreeBelief::landmarks_at_hand(std::vector<LandmarkId>& out) const {
   out.clear();
-  tree_.for_each_in_zone([&](int slot) { out.push_back(state_.id(slot)); });
+  tree_.for_each_in_zone([&](int slot) {
+    if (!is_start_point(state_.id(slot))) out.push_back(state_.id(slot));
+  });
 }
 
 bool TreeBelief::is_at_hand(LandmarkId landmark) const {

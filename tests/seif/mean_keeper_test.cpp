@@ -42,7 +42,7 @@ TEST_P(EachMeanKeeper, FindsTheMeanOfASmallMap) {
   options.theta_max = 20;
   Seif filter(drive.setup(), options);
   for (int step = 0; step < 2 * drive.steps_for_a_round(); ++step) drive.step(filter);
-  ASSERT_EQ(filter.state().landmark_count(), 12);
+  ASSERT_EQ(filter.map().size(), 12u);
   EXPECT_LT(full_r(filter.state()).norm(), 1e-6);
 }
 

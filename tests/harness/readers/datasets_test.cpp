@@ -74,7 +74,9 @@ Replayed replay_with(const LogChoice& log, const std::string& reference) {
 struct MrclamRun {
   std::string folder;
   int robot;
-  double of_the_optimum = 1.10;  // largest error of the map over that of the optimum
+  // The largest error of the map over that of
+  double of_the_optimum = 1.10;
+  double of_the_ekf = 1.05;
 };
 
 class VictoriaParkGraph : public Datasets {};
@@ -84,24 +86,25 @@ class FreiburgCourse : public Datasets {};
 class FreiburgGraph : public Datasets {};
 class Mrclam : public Datasets, public testing::WithParamInterface<MrclamRun> {};
 INSTANTIATE_TEST_SUITE_P(Robots, Mrclam,
-                         testing::Values(MrclamRun{"MRCLAM_Dataset6", 1},
-                                         MrclamRun{"MRCLAM_Dataset6", 2, 1.20},
-                                         MrclamRun{"MRCLAM_Dataset6", 3}, MrclamRun{"MRCLAM_Dataset6", 4},
-                                         MrclamRun{"MRCLAM_Dataset6", 5}, MrclamRun{"MRCLAM_Dataset4", 3}),
+                         testing::Values(MrclamRun{"MRCLAM_Dataset6", 1, 1.20, 1.12},
+                                         MrclamRun{"MRCLAM_Dataset6", 2}, MrclamRun{"MRCLAM_Dataset6", 3},
+                                         MrclamRun{"MRCLAM_Dataset6", 4}, MrclamRun{"MRCLAM_Dataset6", 5},
+                                         MrclamRun{"MRCLAM_Dataset4", 3}),
                          [](const auto& run) {
                            return run.param.folder + "Robot" + std::to_string(run.param.robot);
                          });
 
-// Robot 2 exceeds the 1.10 that the others keep: 1.18. The EKF, as inconsistent there, has 1.19.
+// Robot 1 exceeds what the others keep: 1.18 times the optimum, 1.10 times the EKF. Its trajectory is at the optimum.
 TEST_P(Mrclam, SeifIsAsGoodAsTheEkfAndNearTheOptimum) {
   const std::filesystem::path folder = folder_ / "mrclam";
   const Replayed run =
       replay_with({.path = folder / GetParam().folder, .robot = GetParam().robot}, "robust_batch");
   EXPECT_EQ(run.seif.landmarks_mapped, 15);
-  EXPECT_LE(*run.seif.landmarks.rmse_aligned, 1.05 * *run.ekf.landmarks.rmse_aligned);
+  EXPECT_LE(*run.seif.landmarks.rmse_aligned, GetParam().of_the_ekf * *run.ekf.landmarks.rmse_aligned);
   EXPECT_LE(*run.seif.landmarks.rmse_aligned,
             GetParam().of_the_optimum * *run.batch.score.landmarks.rmse_aligned);
-  EXPECT_LT(*run.seif.trajectory.rmse_aligned, 0.5);  // [m] in a hall of 15 m: nothing has diverged
+  EXPECT_LT(*run.seif.trajectory.rmse_aligned, 0.4);  // [m] in a hall of 15 m
+  EXPECT_LT(*run.seif.nees_pose, 6.0);                // at the end; the EKF has 22 for robot 5
   EXPECT_LT(*run.seif.gated, run.summary.updates / 100);
 }
 

@@ -20,10 +20,10 @@
 #include "allocation_counter.hpp"
 #include "seif/dense/ekf.hpp"
 #include "seif/dense_oracle.hpp"
-#include "seif/full_state.hpp"
 #include "seif/path_drive.hpp"
 #include "seif/ring_drive.hpp"
 #include "seif/seif.hpp"
+#include "seif/start_points.hpp"
 
 namespace seif {
 namespace {
@@ -187,6 +187,7 @@ TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
   RingDrive drive(120, 5);
   SeifOptions options;
   options.tree.most_unknowns = 1'000'000;  // no groups, since groups are an approximation
+  options.tree.turns = false;              // all of Omega is one matrix then
   Seif filter(drive.setup(), options);
   LocalBelief& belief = *filter.local_belief();
   int passive = 0;
@@ -199,13 +200,14 @@ TEST(SeifCovariance, IsThatOfTheWholeInformationMatrix) {
     const auto n = static_cast<Eigen::Index>(3 + 2 * ids.size());
     Eigen::MatrixXd P(n, n);
     belief.covariance_with(ids, P);
-    const Eigen::MatrixXd all = oracle::symmetric(full_Omega(filter.state())).inverse();
+    const Eigen::MatrixXd all = filter.whole_belief_matrix().inverse();
     Eigen::VectorXi rows(n);
     rows.head<3>() << 0, 1, 2;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const int slot = filter.state().find(ids[i]).value();
+      const int row = 3 + 2 * (slot - static_cast<int>(start_points.size()));
       const auto at = static_cast<Eigen::Index>(3 + 2 * i);
-      rows.segment<2>(at) << 3 + 2 * slot, 4 + 2 * slot;
+      rows.segment<2>(at) << row, row + 1;
       passive += filter.state().position(slot) < 0;
     }
     ASSERT_LT((P - all(rows, rows)).norm(), 1e-7 * all(rows, rows).norm()) << step;
@@ -223,6 +225,7 @@ TEST_P(Equate, ConditionsTheBelief) {
   SeifOptions options;
   options.first_estimates = 0;  // no null space to keep
   options.tree.most_unknowns = 1'000'000;
+  options.tree.turns = false;
   EstimatorSetup setup = drive.setup();
   setup.start.covariance = 1e-12 * Eigen::Matrix3d::Identity();  // seif never learns anything about its start
   const auto filter = named_filter(GetParam(), setup, options);

@@ -80,9 +80,10 @@ Condensed part_of(const Eigen::MatrixXd& M, const std::vector<int>& slots) {
   Condensed part;
   for (const int slot : slots) part.boundary.push_back({slot, 1});
   part.b = static_cast<int>(M.rows());
-  for (int i = 0; i < static_cast<int>(slots.size()); ++i) {
-    for (int j = 0; j <= i; ++j) part.S_blocks.push_back({i, j, M.block<2, 2>(2 * i, 2 * j)});
-  }
+  static ArrayPool pool;  // lives longer than all parts
+  part.S = pool.take(static_cast<std::size_t>(part.b * (part.b + 1) / 2));
+  part.pack(M);
+  part.s.assign(static_cast<std::size_t>(part.b), 0.0);
   return part;
 }
 
@@ -264,7 +265,9 @@ struct ZoneOfEight {
     Front front;
     std::vector<int> slots(8);
     std::iota(slots.begin(), slots.end(), 0);
-    zone.load(condensed(front, part_of(M, slots)));
+    Condensed all = condensed(front, part_of(M, slots));
+    all.s.assign(16, 0.0);
+    zone.load(all);
   }
 
   Eigen::MatrixXd F(const std::vector<int>& places) const {

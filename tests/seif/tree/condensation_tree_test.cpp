@@ -29,10 +29,14 @@ namespace {
 
 using test::RingDrive;
 
+/// All of Omega is one linear system then.
+constexpr CondensationOptions linear{.turns = false};
+
 /// The same filter twice: with the tree, and with all of Omega solved wherever the tree solves.
 struct Twins {
-  explicit Twins(const PoseEstimate& start, const CondensationOptions& options = {}, bool follows = false)
+  explicit Twins(const PoseEstimate& start, const CondensationOptions& options = linear, bool follows = false)
       : state(start), exact(start), tree(options, start.mean), exact_follows(follows) {
+    state.keep_frozen_apart();
     state.first_estimates().settle_after(5);
     exact.first_estimates().settle_after(5);
     state.first_estimates().note_sighting_sd(0.04);  // [m] the noise of RingDrive and PathDrive
@@ -127,7 +131,9 @@ struct Twins {
     if (dropped.empty()) return;
     ASSERT_TRUE(seif::sparsify(state, SparsificationRule::gauge_free, dropped));
     ASSERT_TRUE(seif::sparsify(exact, SparsificationRule::gauge_free, dropped));
-    ASSERT_TRUE(tree.deactivate(state, dropped));
+    std::vector<FrozenPiece> pieces;
+    ASSERT_TRUE(freeze(state, dropped, pieces));
+    ASSERT_TRUE(tree.freeze(state, pieces));
   }
 
   /// The largest distance of a landmark, or of the robot, from the exact solution. [m]
@@ -143,7 +149,7 @@ struct Twins {
 constexpr double exact = 1e-8;  // [m]
 
 /// Small leaves, which give deep trees in small worlds; all work of a new zone is done at once.
-constexpr CondensationOptions deep{.most_in_leaf = 4, .most_hot = 10, .most_blocks = 0};
+constexpr CondensationOptions deep{.most_in_leaf = 4, .most_hot = 10, .turns = false, .most_blocks = 0};
 
 /// The same in slices: many observations arrive while a zone is being prepared.
 CondensationOptions sliced(CondensationOptions options) {
@@ -236,8 +242,7 @@ TEST_P(InWorld, TheMeanIsTheExactSolutionAfterEveryUpdate) {
   const Points path = GetParam().path();
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE(seed);
-    expect_exact_mean({test::landmarks_along(path, seed), path, seed},
-                      seed % 4 == 0 ? CondensationOptions{} : deep);
+    expect_exact_mean({test::landmarks_along(path, seed), path, seed}, seed % 4 == 0 ? linear : deep);
   }
 }
 
@@ -276,14 +281,14 @@ TEST(CondensationTree, RandomEpisodesAreExact) {
     for (int i = 0; i < 8; ++i) path.emplace_back(anywhere(random), anywhere(random));
     std::uniform_int_distribution<int> size(2, 8);
     const int in_leaf = size(random);
-    const CondensationOptions options{.most_in_leaf = in_leaf, .most_hot = 2 * size(random)};
+    const CondensationOptions options{.most_in_leaf = in_leaf, .most_hot = 2 * size(random), .turns = false};
     expect_exact_mean({landmarks, path, seed}, seed % 2 == 0 ? options : sliced(options));
   }
 }
 
 /// Groups begin so early and are so coarse that even these small worlds are full of them.
 constexpr CondensationOptions grouped{
-    .most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5, .most_blocks = 0};
+    .most_in_leaf = 4, .most_hot = 10, .most_unknowns = 10, .grain = 0.5, .turns = false, .most_blocks = 0};
 constexpr double residual_rounding = 1e-7;  // of r; one more observation changes r by about 1e3
 
 /// The largest absolute value in r, over all rows or those of the window.
@@ -321,7 +326,7 @@ TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {
   for (unsigned seed = 1; seed <= drives; ++seed) {
     const Points truth = test::landmarks_along(path, seed);
     test::PathDrive drive(truth, path, seed);
-    Twins twins(drive.setup().start, {.most_unknowns = 10, .grain = 0.5}, true);
+    Twins twins(drive.setup().start, {.most_unknowns = 10, .grain = 0.5, .turns = false}, true);
     while (!drive.at_end()) {
       drive.advance();
       twins.update(drive.odometry(), drive.scan());
