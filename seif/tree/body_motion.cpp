@@ -28,7 +28,7 @@ void BodyFit::begin(double near) {
 void BodyFit::add(const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now) {
   int cluster = none;
   for (const Point& other : points_) {
-    if (other.cluster == none || (p_before - other.before).squaredNorm() >= squared_near_) continue;
+    if (other.cluster == none || !are_together(other, p_before, p_now)) continue;
     if (cluster == none) cluster = other.cluster;
     if (other.cluster != cluster) join(other.cluster, cluster);
   }
@@ -37,6 +37,16 @@ void BodyFit::add(const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now)
     clusters_.emplace_back();
   }
   points_.push_back({p_before, p_now, cluster});
+}
+
+/// Two ends of a map that lie side by side by chance, until a closure moves one, are not together.
+bool BodyFit::are_together(const Point& point, const Eigen::Vector2d& p_before,
+                           const Eigen::Vector2d& p_now) const {
+  const double before = (p_before - point.before).squaredNorm();
+  const double now = (p_now - point.now).squaredNorm();
+  if (before >= squared_near_ || now >= squared_near_) return false;
+  constexpr double most_stretch = 0.02;  // [-] of the distance that is near
+  return std::abs(std::sqrt(before) - std::sqrt(now)) <= most_stretch * std::sqrt(squared_near_);
 }
 
 void BodyFit::add_turned(const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now, double angle) {

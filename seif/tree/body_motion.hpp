@@ -23,8 +23,8 @@ struct BodyMotion {
   }
 };
 
-/// Collects points before and after, and finds the rigid motion of the whole. Points near each other form a cluster,
-/// with a rigid motion of its own: a body may be soft between clusters, as the two ends of a ring that closes.
+/// Collects points before and after, and finds the rigid motion of the whole. Points that are near each other, before
+/// and after, and at the same distance, form a cluster with a rigid motion of its own: a body may be soft between clusters, as the two ends of a ring that closes.
 class BodyFit {
  public:
   struct Point {
@@ -67,6 +67,7 @@ class BodyFit {
   Eigen::Vector2d step(std::size_t i) const;
 
  private:
+  bool are_together(const Point& point, const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now) const;
   void join(int from, int to);
   void find_middles();
   void find_turns();

@@ -59,6 +59,12 @@ class RingDrive {
     filter.measurement_update(scan_, ignore);
   }
 
+  /// [x y theta] of an estimate minus the truth. [m, m, rad]
+  Eigen::Vector3d error_of(const Pose2& pose) const {
+    const Pose2 true_pose = truth();
+    return {pose.x - true_pose.x, pose.y - true_pose.y, wrap_angle(pose.theta - true_pose.theta)};
+  }
+
   int steps_for_a_round() const { return static_cast<int>(std::ceil(2 * std::numbers::pi * radius_ / 0.5)); }
 
  private:

@@ -67,6 +67,21 @@ TEST(BodyFit, PointsInReachOfOneAnotherAreOneClusterInAnyOrder) {
   EXPECT_EQ(fit.points()[0].cluster, fit.points()[2].cluster);
 }
 
+/// Two ends of a ring whose error puts one beside the other, until the closure moves it.
+TEST(BodyFit, EndsSideBySideByChanceAreNotOneCluster) {
+  const Eigen::Vector2d beside(0.0, 5.0);
+  for (const Eigen::Vector2d& by : {Eigen::Vector2d(23.0, 0.0), Eigen::Vector2d(3.0, -2.0)}) {
+    BodyFit fit;
+    fit.begin(fit_near);
+    for (const Eigen::Vector2d& p : body_places) fit.add(p, p);
+    for (const Eigen::Vector2d& p : body_places)
+      fit.add(p + beside, moved(p, 0.1, {0.0, -10.0}) + beside + by);
+    fit.fit();
+    EXPECT_NE(fit.points()[0].cluster, fit.points()[4].cluster);
+    EXPECT_EQ(fit.points()[4].cluster, fit.points()[7].cluster);
+  }
+}
+
 TEST(BodyFit, AGroupTellsItsOwnTurn) {
   BodyFit fit;
   fit.begin(fit_near);
