@@ -24,7 +24,8 @@ struct BodyMotion {
 };
 
 /// Collects points before and after, and finds the rigid motion of the whole. Points that are near each other, before
-/// and after, and at the same distance, form a cluster with a rigid motion of its own: a body may be soft between clusters, as the two ends of a ring that closes.
+/// and after, and at the same distance, form a cluster with a rigid motion of its own. A body may be soft between
+/// clusters, as between the two ends of a ring that closes.
 class BodyFit {
  public:
   struct Point {

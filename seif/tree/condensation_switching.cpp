@@ -13,7 +13,8 @@ void CondensationTree::end_update(const InformationState& state) {
   if (is_ready && has_time && !plan_.has_told) tell_residuals(state);
 }
 
-/// What the messages of the plan hold of the residual, where all means are now. All at once: a landmark that is tied on two sides of the hub has to be told of in one place.
+/// What the messages of the plan hold of the residual, where all means are now. All at once: a landmark that is tied on
+/// two sides of the hub must be in one place for both.
 void CondensationTree::tell_residuals(const InformationState& state) {
   for (const int at : plan_.stale) read(state, at);
   for (const int g : plan_.begun) node(g).group.read.setZero();
@@ -41,7 +42,8 @@ void CondensationTree::reserve_boundary(Eigen::Index rows) {
   part_residual_.resize(2 * rows);
 }
 
-/// What a message or an element holds of the residual of its boundary as that is now, brought to the places of the plan.
+/// What a message or an element holds of the residual of its boundary as that is now, brought to the places of the
+/// plan.
 Eigen::VectorXd::SegmentReturnType CondensationTree::residual_of(const Condensed& part) {
   reserve_boundary(part.b);
   auto d = part_step_.head(part.b);

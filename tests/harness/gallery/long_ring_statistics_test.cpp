@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "harness/statistics/alignment.hpp"
 #include "seif/dense/ekf.hpp"
 #include "seif/models.hpp"
+#include "seif/ring_drive.hpp"
 #include "seif/seif.hpp"
 
 namespace harness {
@@ -245,6 +247,27 @@ TEST(LongRing, KnowsHowFarOffItIsBeforeItClosesAndAfter) {
     EXPECT_LE(nees.map, 1.3);
   }
   EXPECT_GT(std::min(ekf[2].pose, ekf[2].map), 100.0);  // the task is not easy
+}
+
+/// Driven twice, nearly to the end: 3.7 km and 15 km.
+TEST(LongRing, OfManyKilometresKnowsWhereTheRobotIs) {
+  std::vector<double> nees;
+  for (const int landmarks : {5'000, 20'000}) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      seif::test::RingDrive drive(landmarks, seed);
+      seif::Seif seif(drive.setup(), {});
+      const int round = drive.steps_for_a_round();
+      for (int k = 0; k < round - 20; ++k) drive.step(seif);
+      const double off_where_it_closes = drive.error_of(seif.pose()).head<2>().norm();
+      for (int k = 0; k < round; ++k) drive.step(seif);
+      const Eigen::Vector3d error = drive.error_of(seif.pose());
+      nees.push_back(error.dot(seif.pose_covariance().value().inverse() * error) / 3);
+      std::printf("%d landmarks, seed %u: %.0f m off where it closes, NEES of the pose at the end %.2f\n",
+                  landmarks, seed, off_where_it_closes, nees.back());
+    }
+  }
+  const double mean = std::accumulate(nees.begin(), nees.end(), 0.0) / static_cast<double>(nees.size());
+  EXPECT_LT(mean, 3.0);  // 1.2; before parts turned, 744
 }
 
 }  // namespace
