@@ -146,6 +146,7 @@ void InformationState::reserve_window(int active_landmarks) {
   frozen_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
   work_.resize(rows, rows);
   work_columns_.resize(rows, 3);
+  wide_columns_.resize(rows, Eigen::Index{2} * rows);
   mu_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
   r_.conservativeResizeLike(Eigen::VectorXd::Zero(rows));
   link_of_.conservativeResizeLike(Eigen::MatrixXi::Constant(new_room, new_room, none));
@@ -258,7 +259,7 @@ std::int64_t InformationState::link_count() const {
 
 std::size_t InformationState::memory_bytes() const {
   return graph_.memory_bytes() + index_.memory_bytes() + first_estimates_.memory_bytes() +
-         sizeof(double) * static_cast<std::size_t>(3 * Omega_.size() + 2 * mu_.size() + 3 * mu_.size()) +
+         sizeof(double) * static_cast<std::size_t>(5 * Omega_.size() + 2 * mu_.size() + 3 * mu_.size()) +
          sizeof(int) * (static_cast<std::size_t>(link_of_.size()) + active_.capacity());
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -44,6 +45,10 @@ class InformationState {
   /// Scratch memory for a step, as large as the window, so that no step allocates.
   auto work() { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
   auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
+  auto work_columns(int n) {                                                 // (w x n), n <= 2w
+    assert(n <= 2 * window_size());
+    return wide_columns_.topLeftCorner(window_size(), n);
+  }
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
   void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller updates r
@@ -136,6 +141,7 @@ class InformationState {
   Eigen::VectorXd mu_, r_;          // window
   Eigen::MatrixXd work_;            // as large as Omega_
   Eigen::Matrix<double, Eigen::Dynamic, 3> work_columns_;
+  Eigen::MatrixXd wide_columns_;  // twice as wide as Omega_
   Eigen::MatrixXi link_of_;  // by two positions: the graph's link between them, or none (symmetric)
 
   InformationGraph graph_;

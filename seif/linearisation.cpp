@@ -96,15 +96,15 @@ void follow_pose(InformationState& state, const Pose2& before) {
   change_turn(state, 0, state.first_estimates().follow_pose(before, state.pose(), active_means(state)));
 }
 
-void carry_first_estimates(InformationState& state, double near, MovedBoundary& moved) {
+void carry_first_estimates(InformationState& state, const Turning& turning, MovedBoundary& moved) {
   FirstEstimates& firsts = state.first_estimates();
   const Pose2 from = firsts.pose();
   const Pose2 to = state.pose();
   const Eigen::Vector2d from_p(from.x, from.y);
   const Eigen::Vector2d to_p(to.x, to.y);
   const Eigen::Rotation2Dd R(wrap_angle(to.theta - from.theta));
-  moved.begin(near);
-  moved.add({.before = from_p, .now = to_p, .turn = R.angle(), .is_group = true});
+  moved.begin(turning);
+  moved.add({.before = from_p, .now = to_p, .turn = R.angle(), .rows = 3});
   for (int position = 0; position < state.active_count(); ++position) {
     const int slot = state.active(position);
     if (!has_information(state, position)) {

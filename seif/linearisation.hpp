@@ -9,6 +9,9 @@
 
 namespace seif {
 
+class MovedBoundary;
+struct Turning;
+
 /// T_world_robot and p_world_landmark [m].
 Pose2 linearisation_pose(const InformationState& state);
 Eigen::Vector2d linearisation_point(const InformationState& state, int slot);
@@ -30,8 +33,8 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
 /// Does nothing where landmarks of another frame are in view.
 void follow_pose(InformationState& state, const Pose2& before);
 
-/// All first estimates of the window become the means, with Omega and r turned and moved as they are.
-void carry_first_estimates(InformationState& state, double near, class MovedBoundary& moved);
+/// All first estimates of the window become the means, with Omega and r turned and moved as they are. `moved`: scratch.
+void carry_first_estimates(InformationState& state, const Turning& turning, MovedBoundary& moved);
 
 /// Replaces the first estimates of active landmarks that are not settled yet by their means. Omega and r change
 /// with them, so that Omega still holds no information about a turn of everything, now about the new first

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "seif/freezing.hpp"
@@ -42,8 +41,7 @@ class MeanKeeper {
 
   /// Called when landmarks have left the window, with what was frozen with them, if the state keeps that apart.
   /// False if a matrix is not positive definite.
-  [[nodiscard]] virtual bool freeze(const InformationState& /*state*/,
-                                    std::span<const FrozenPiece> /*pieces*/) {
+  [[nodiscard]] virtual bool freeze(const InformationState& /*state*/, const FrozenPiece& /*piece*/) {
     return true;
   }
 

@@ -119,7 +119,7 @@ class Seif final : public InformationFilter {
   mutable Eigen::Matrix<double, Eigen::Dynamic, 3> columns_;  // scratch (w x 3), with room to grow
   bool is_curved_ = false;                                    // second-order terms matter in the latest scan
   std::vector<ObservationFactor> factors_, again_;            // of the latest scan
-  std::vector<FrozenPiece> frozen_;                           // by the latest sparsification
+  FrozenPiece frozen_;                                        // by the latest sparsification
   std::vector<int> seen_, to_drop_;                           // slots; kept so that no update allocates
   std::vector<std::pair<int, int>> equal_slots_;
 };

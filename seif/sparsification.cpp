@@ -20,25 +20,25 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Columns = Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 3>>;
 using LLT3 = Eigen::LLT<Eigen::Matrix3d>;
 
-/// Marginalises the landmark at `row` out of M: M -= M_:m M_mm^-1 M_m:. False if M_mm is not positive
-/// definite.
-bool marginalise_landmark(Eigen::Ref<Eigen::MatrixXd> M, int row, Columns columns) {
-  const Eigen::LLT<Eigen::Matrix2d> llt(Eigen::Matrix2d(M.block<2, 2>(row, row)));
-  if (llt.info() != Eigen::Success) return false;
-  auto V = columns.leftCols<2>();  // (w x 2)
-  V = M.middleCols<2>(row);
-  llt.matrixU().solveInPlace<Eigen::OnTheRight>(V);
-  M.noalias() -= V * V.transpose();
-  return true;
-}
-
-/// Marginalises the landmarks `slots` out of D in state.work(). False if D is not positive definite there.
+/// Marginalises the landmarks Z, `slots`, out of D in state.work(): D -= D_:Z D_ZZ^-1 D_Z:. False if D_ZZ is not
+/// positive definite.
 bool marginalise_landmarks(InformationState& state, std::span<const int> slots) {
-  for (const int slot : slots) {
-    const int row = InformationState::row_of(state.position(slot));
-    if (!marginalise_landmark(state.work(), row, state.work_columns())) return false;
-  }
-  state.touch(static_cast<int>(slots.size()) * state.window_blocks());
+  const auto z = 2 * static_cast<int>(slots.size());
+  auto D = state.work();
+  auto columns = state.work_columns(2 * z);
+  auto V = columns.leftCols(z);              // (w x 2|Z|)
+  auto L = columns.rightCols(z).topRows(z);  // (2|Z| x 2|Z|)
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    V.middleCols<2>(static_cast<Eigen::Index>(2 * i)) =
+        D.middleCols<2>(InformationState::row_of(state.position(slots[i])));
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    L.middleRows<2>(static_cast<Eigen::Index>(2 * i)) =
+        V.middleRows<2>(InformationState::row_of(state.position(slots[i])));
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(L);
+  if (llt.info() != Eigen::Success) return false;
+  llt.matrixU().solveInPlace<Eigen::OnTheRight>(V);
+  D.noalias() -= V * V.transpose();
+  state.touch(state.window_blocks());
   return true;
 }
 

@@ -20,15 +20,43 @@ void append(const std::vector<int>& slots, const Eigen::MatrixXd& S, const Eigen
   }
 }
 
+/// Where the Jacobians of the window are taken, so that it agrees with these about what turns everything.
+void add_element(const CondensationTree& tree, const InformationState& state, const Turning& turning,
+                 const Condensed& element, FrozenInformation& all) {
+  std::vector<int> slots;
+  std::vector<MovedPlace> means, points;
+  const double* reference = element.reference.data();
+  for (const Condensed::Member& m : element.boundary) {
+    const Eigen::Vector2d before(reference[0], reference[1]);
+    const Eigen::Vector2d now = tree.mean(state, m.variable);
+    const bool is_active = state.position(m.variable) >= 0;
+    slots.push_back(m.variable);
+    means.push_back({.before = before, .now = now});
+    points.push_back({.before = before, .now = is_active ? linearisation_point(state, m.variable) : now});
+    reference += 2;
+  }
+  Eigen::VectorXd d(element.b), r(element.b);
+  Eigen::MatrixXd S(element.b, element.b);
+  element.unpack(S);
+  MovedBoundary boundary;
+  boundary.fit(turning, means);
+  boundary.steps(means, d);
+  element.residual(d, r);
+  boundary.bring_residual(r);
+  boundary.fit(turning, points);
+  boundary.bring(S);
+  append(slots, S, r, all);
+}
+
 }  // namespace
 
 FrozenInformation CondensationTree::frozen_information(const InformationState& state) const {
   FrozenInformation all{.blocks = {}, .r = Eigen::VectorXd::Zero(Eigen::Index{2} * state.landmark_count())};
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].own.b > 0) add_element(state, nodes_[i].own, all);
+  for (std::size_t i = 0; i < records_.nodes.size(); ++i) {
+    if (records_.nodes[i].own.b > 0) add_element(*this, state, records_.turning(), records_.nodes[i].own, all);
   }
   for (const FrozenPiece& piece : plan_.fresh.all()) {
-    // A piece is an element of rank two.
+    // A piece is an element.
     ArrayPool pool;
     Condensed element;
     for (const FrozenPiece::Member& m : piece.members) element.boundary.push_back({m.slot, 0});
@@ -38,45 +66,13 @@ FrozenInformation CondensationTree::frozen_information(const InformationState& s
       return row;
     };
     add_piece(piece, index_of, pool, element);
-    add_element(state, element, all);
+    add_element(*this, state, records_.turning(), element, all);
   }
-  for (const Held& held : held_) {
-    append({held.slot}, held_weight_ * Eigen::Matrix2d::Identity(),
-           held_weight_ * (held.at - mean(state, held.slot)), all);
+  for (std::size_t i = 0; i < held_.slots.size(); ++i) {
+    const int slot = held_.slots[i];
+    append({slot}, held_.weight * Eigen::Matrix2d::Identity(), held_.weight * (held_.at[i] - mean(state, slot)), all);
   }
   return all;
-}
-
-/// Where the Jacobians of the window are taken, so that it agrees with these about what turns everything.
-void CondensationTree::add_element(const InformationState& state, const Condensed& element,
-                                   FrozenInformation& all) const {
-  std::vector<int> slots;
-  std::vector<MovedPlace> means, points;
-  const double* reference = element.reference.data();
-  for (const Condensed::Member& m : element.boundary) {
-    const Eigen::Vector2d now = mean(state, m.variable);
-    const bool is_active = state.position(m.variable) >= 0;
-    slots.push_back(m.variable);
-    means.push_back(moved_place(m.variable, reference, now, 0.0));
-    points.push_back(
-        moved_place(m.variable, reference, is_active ? linearisation_point(state, m.variable) : now, 0.0));
-    reference += 2;
-  }
-  Eigen::VectorXd d(element.b), r(element.b);
-  Eigen::MatrixXd S(element.b, element.b);
-  element.unpack(S);
-  if (options_.turns) boundary_.fit(near(), means);
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    d.segment<2>(static_cast<Eigen::Index>(2 * i)) =
-        options_.turns ? boundary_.step(i) : Eigen::Vector2d(means[i].now - means[i].before);
-  }
-  element.residual(d, r);
-  if (options_.turns) {
-    boundary_.bring_residual(r);
-    boundary_.fit(near(), points);
-    boundary_.bring(S);
-  }
-  append(slots, S, r, all);
 }
 
 }  // namespace seif

@@ -31,77 +31,79 @@ std::ptrdiff_t times_settled(const Condensed& message, FrontVariable variable) {
   return std::ranges::count(message.eliminated, variable) + std::ranges::count_if(message.tied, is_it);
 }
 
-}  // namespace
-
-std::optional<std::string> CondensationTree::broken_invariant(const InformationState& state) const {
-  for (int h = 0; h < zone_.size(); ++h) {
-    const int slot = zone_.slot(h);
-    if (landmark(slot).zone_index != h) return broken("landmark ", slot, " has another index in the zone");
-    if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
-  }
-  for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    if (Broken wrong = broken_landmark(slot)) return wrong;
-  }
-  for (int i = 0; i < tree_.size(); ++i) {
-    if (Broken wrong = broken_message(i)) return wrong;
-    for (const int group : sent(i).groups) {
-      if (Broken wrong = broken_group(group, i)) return wrong;
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> CondensationTree::broken_landmark(int slot) const {
-  const CondensedLandmark& p = landmark(slot);
-  const bool is_hot = node(p.leaf).hot;
-  if (is_hot != (p.zone_index != none))
-    return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
-  if (is_hot) return std::nullopt;
-  if (p.leaves != count_leaves(slot)) return broken("other leaves mention landmark ", slot);
-  if (times_settled(sent(p.settled_at).message, slot) != 1)
-    return broken("landmark ", slot, " is not settled at node ", p.settled_at);
-  return std::nullopt;
-}
-
-int CondensationTree::count_leaves(int slot) const {
+int count_leaves(const CondensationRecords& records, int slot) {
   int leaves = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < records.nodes.size(); ++i) {
     const auto is_it = [&](const Condensed::Member& m) { return m.variable == slot; };
-    if (std::ranges::any_of(nodes_[i].own.boundary, is_it)) ++leaves;
+    if (std::ranges::any_of(records.nodes[i].own.boundary, is_it)) ++leaves;
   }
   return leaves;
 }
 
-std::optional<std::string> CondensationTree::broken_message(int i) const {
-  const Condensed& message = sent(i).message;
-  if (node(i).hot && i != tree_.hub() && message.blocks() > 0)
+Broken broken_landmark(const CondensationRecords& records, int slot) {
+  const CondensedLandmark& p = records.landmark(slot);
+  const bool is_hot = records.node(p.leaf).hot;
+  if (is_hot != (p.zone_index != CondensationRecords::none))
+    return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
+  if (is_hot) return std::nullopt;
+  if (p.leaves != count_leaves(records, slot)) return broken("other leaves mention landmark ", slot);
+  if (times_settled(records.sent(p.settled_at).message, slot) != 1)
+    return broken("landmark ", slot, " is not settled at node ", p.settled_at);
+  return std::nullopt;
+}
+
+Broken broken_message(const CondensationRecords& records, int i) {
+  const LeafTree& tree = records.tree;
+  const Condensed& message = records.sent(i).message;
+  if (records.node(i).hot && i != tree.hub() && message.blocks() > 0)
     return broken("hot leaf ", i, " has a message");
-  int next = tree_.towards(i);
-  while (next != none && sent(next).is_bare) next = tree_.towards(next);
+  int next = tree.towards(i);
+  while (next != CondensationRecords::none && records.sent(next).is_bare) next = tree.towards(next);
   for (const Condensed::Member& m : message.boundary) {
-    if (next != none && !takes_in(sent(next).message, m.variable))
+    if (next != CondensationRecords::none && !takes_in(records.sent(next).message, m.variable))
       return broken("node ", next, " does not take in ", m.variable, " of node ", i);
   }
   for (const FrontVariable v : message.eliminated) {
-    if (settled_at(v) != i)
+    if (records.settled_at(v) != i)
       return broken("variable ", v, " is eliminated at node ", i, ", and settled elsewhere");
   }
   return std::nullopt;
 }
 
-std::optional<std::string> CondensationTree::broken_group(int group, int i) const {
-  const Condensed& message = sent(i).message;
-  const auto is_used_in = [&](int leaf) {
-    return tree_.is_within(leaf, group) && std::ranges::find(changed_, leaf) == changed_.end();
-  };
-  if (std::ranges::any_of(hot_leaves_, is_used_in)) return broken("group ", group, " in node ", i, " is hot");
-  if (node(group).group.fronts <= 0) return broken("group ", group, " is counted wrong");
+Broken broken_group(const CondensationRecords& records, const PlanMarking& marking, int group, int i) {
+  const LeafTree& tree = records.tree;
+  const Condensed& message = records.sent(i).message;
+  const auto is_used_in = [&](int leaf) { return tree.is_within(leaf, group) && !marking.is_changed(leaf); };
+  if (std::ranges::any_of(records.hot_leaves, is_used_in))
+    return broken("group ", group, " in node ", i, " is hot");
+  if (records.node(group).group.fronts <= 0) return broken("group ", group, " is counted wrong");
   const auto is_beside = [&](FrontVariable v) {
-    return node_of(v) != group && tree_.is_within(node_of(v), group);
+    return records.node_of(v) != group && tree.is_within(records.node_of(v), group);
   };
   if (std::ranges::any_of(message.eliminated, is_beside) ||
       std::ranges::any_of(message.boundary, is_beside, &Condensed::Member::variable))
     return broken("node ", i, " has landmarks beside their group ", group);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> CondensationTree::broken_invariant(const InformationState& state) const {
+  for (int h = 0; h < zone_.size(); ++h) {
+    const int slot = zone_.slot(h);
+    if (records_.landmark(slot).zone_index != h)
+      return broken("landmark ", slot, " has another index in the zone");
+    if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
+  }
+  for (int slot = 0; slot < state.landmark_count(); ++slot) {
+    if (Broken wrong = broken_landmark(records_, slot)) return wrong;
+  }
+  for (int i = 0; i < records_.tree.size(); ++i) {
+    if (Broken wrong = broken_message(records_, i)) return wrong;
+    for (const int group : records_.sent(i).groups) {
+      if (Broken wrong = broken_group(records_, marking_, group, i)) return wrong;
+    }
+  }
   return std::nullopt;
 }
 

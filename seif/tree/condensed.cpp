@@ -1,7 +1,8 @@
 #include "seif/tree/condensed.hpp"
 
-#include <algorithm>
 #include <utility>
+
+#include "seif/packed_triangle.hpp"
 
 namespace seif {
 
@@ -43,28 +44,17 @@ void Condensed::residual(const Eigen::Ref<const Eigen::VectorXd>& d, Eigen::Ref<
 
 void Condensed::add_to_S(Eigen::Index row, Eigen::Index col, const Eigen::Matrix2d& block) {
   for (Eigen::Index j = 0; j < 2; ++j) {
-    double* const column = S.data() + (col + j) * b - (col + j) * (col + j - 1) / 2 - (col + j);
+    double* const column = S.data() + packed_index(b, 0, col + j);
     for (Eigen::Index i = row == col ? j : 0; i < 2; ++i) column[row + i] += block(i, j);
   }
 }
 
 void Condensed::unpack(Eigen::Ref<Eigen::MatrixXd> full) const {
-  const double* column = S.data();
-  for (Eigen::Index j = 0; j < b; ++j) {
-    full.col(j).tail(b - j) = Eigen::Map<const Eigen::VectorXd>(column, b - j);
-    full.row(j).tail(b - j) = full.col(j).tail(b - j).transpose();
-    column += b - j;
-  }
+  unpack_triangle(S.data(), full);
 }
 
 void Condensed::pack(const Eigen::Ref<const Eigen::MatrixXd>& full) {
-  double* to = S.data();
-  for (Eigen::Index j = 0; j < b; ++j) to = std::copy_n(full.col(j).data() + j, b - j, to);
-}
-
-std::int64_t Condensed::blocks() const {
-  const auto n = static_cast<std::int64_t>(eliminated.size() + boundary.size());
-  return n * (n + 1) / 2;
+  pack_triangle(full, S.data());
 }
 
 std::size_t Condensed::memory_bytes() const {

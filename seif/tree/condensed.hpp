@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seif/tree/array_pool.hpp"
+#include "seif/tree/group_motion.hpp"
 
 namespace seif {
 
@@ -15,7 +16,8 @@ namespace seif {
 using FrontVariable = int;
 constexpr FrontVariable group_variable(int group) { return ~group; }
 constexpr bool is_group(FrontVariable v) { return v < 0; }
-constexpr int freedom(FrontVariable v) { return is_group(v) ? 3 : 2; }  // (x, y), or (x, y, phi)
+/// A landmark has two unknowns, a group those of GroupMotion.
+constexpr int freedom(FrontVariable v) { return is_group(v) ? GroupMotion::SizeAtCompileTime : 2; }
 
 /// The result of a front.
 struct Condensed {
@@ -27,8 +29,8 @@ struct Condensed {
   struct Tie {
     FrontVariable variable;
     int row;  // of its group, in E and B
-    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
-    Eigen::Matrix<double, 3, 1, Eigen::DontAlign> reference;  // its mean (2, or 3 of a group) at that of B
+    Lever lever;
+    GroupMotion reference;  // its mean (the first two, or all of a group) at that of B
   };
   std::vector<FrontVariable> eliminated;
   std::vector<Member> boundary;
@@ -44,8 +46,13 @@ struct Condensed {
   /// S in full to `full` (b x b), and back.
   void unpack(Eigen::Ref<Eigen::MatrixXd> full) const;
   void pack(const Eigen::Ref<const Eigen::MatrixXd>& full);
-  /// The number of its distinct blocks.
-  std::int64_t blocks() const;
+  /// Distinct blocks of 2 x 2 in the matrix of E and B, and in that of B alone.
+  std::int64_t blocks() const { return blocks_of(e + b); }
+  std::int64_t boundary_blocks() const { return blocks_of(b); }
+  /// Blocks that are touched where E is computed from B: those of L and G.
+  std::int64_t reading_blocks() const { return blocks() - boundary_blocks() + static_cast<int>(tied.size()); }
+  /// Of a symmetric matrix with so many rows.
+  static std::int64_t blocks_of(std::int64_t rows) { return (rows + 1) / 2 * ((rows + 1) / 2 + 1) / 2; }
   /// Adds a 2 x 2 block to S at (row, col), row >= col; on the diagonal its lower triangle.
   void add_to_S(Eigen::Index row, Eigen::Index col, const Eigen::Matrix2d& block);
   /// s - S d: the residual of B after its mean has moved by d (b) from its reference.

@@ -5,10 +5,13 @@
 //                     B [ M_BE           M_BB       ]       condensed: S = M_BB - G' G,  s = r_B - G' y
 //
 // E must have all its blocks in this front. If the mean of B moves by d_B, that of E moves by
-// L^-T (y - G d_B).
+// L^-T (y - G d_B). The work is done in small steps, so that it can be spread over updates:
 //
-// The variables of a front are landmarks, and groups of landmarks that move as one rigid body. A tied landmark has
-// no rows of its own; it moves by t + phi J lever when its group moves by (t, phi).
+//   begin, add each part, tie  ->  divide into E and B  ->  assemble each part  ->  eliminate some columns at a time
+//   ->  finish
+//
+// The variables of a front are landmarks, and groups of landmarks (group_motion.hpp). A tied landmark has no rows of its
+// own: it moves with its group.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +20,11 @@
 #include <span>
 #include <vector>
 
-#include "seif/chunked_array.hpp"
 #include "seif/tree/array_pool.hpp"
 #include "seif/tree/condensed.hpp"
+#include "seif/tree/front_rows.hpp"
 #include "seif/tree/moved_boundary.hpp"
+#include "seif/tree/moved_part.hpp"
 
 namespace seif {
 
@@ -31,35 +35,32 @@ class Front {
     FrontVariable variable;
     int balance;
     FrontVariable group;  // that it is tied to, or itself
-    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
+    Lever lever;
+  };
+  struct Part {
+    const Condensed* condensed;
+    bool is_in_place;  // its reference is where its variables are
   };
 
   Front() = default;
-  Front(Front&&) = default;
-  Front& operator=(Front&&) = delete;  // arrays of the pool that goes may be in use
+  Front(const Front&) = delete;
+  Front& operator=(const Front&) = delete;  // arrays of the pool that goes may be in use
   ~Front() = default;
 
-  /// Of MovedBoundary. [m]
-  void set_near(double near) { near_ = near; }
   void begin();
   /// Adds the result of another front, or a part of Omega.
-  void add(const Condensed& part);
-  /// The same, brought to where its variables are.
-  void add(const Condensed& part, std::span<const MovedPlace> places) {
-    add(part);
-    if (part.boundary.empty()) return;
-    parts_.back().first_place = static_cast<int>(places_.size());
-    places_.insert(places_.end(), places.begin(), places.end());
-  }
+  void add(const Condensed& part, bool is_in_place = true);
   /// All variables so far, in the order in which they were added.
   const std::vector<Variable>& variables() const { return variables_; }
   /// Ties a variable to a group, which is added to the front if it is missing.
-  void tie(std::size_t index, FrontVariable group, const Eigen::Vector2d& lever);
+  void tie(std::size_t index, FrontVariable group, const Lever& lever);
+  /// A group that begins here resists strain a little, so that few members, or members on a line, determine it.
+  void damp(FrontVariable group) { damped_.push_back(group); }
 
-  /// Eliminates all variables for which is_complete(variable, balance) holds. False if their block is not
-  /// positive definite. `out` may not be one that was added. Sets all but y, s and reference.
+  /// Eliminates all variables for which is_complete(variable, balance) holds. `out` may not be one that was added, and
+  /// must stay until finish(), which sets all of it but `reference`.
   template <class IsComplete>
-  [[nodiscard]] bool condense(IsComplete&& is_complete, Condensed& out) {
+  void divide(IsComplete&& is_complete, Condensed& out) {
     out.clear();
     for (const Variable& v : variables_) {
       if (v.group != v.variable) continue;
@@ -71,78 +72,60 @@ class Front {
         out.b += freedom(v.variable);
       }
     }
-    return factorise(out);
+    begin_matrix(out);
+  }
+  /// The part that assemble_next() will add, or null.
+  const Part* next_part() const { return next_part_ < parts_.size() ? &parts_[next_part_] : nullptr; }
+  /// `places`: of the part's boundary, unless it is in place already.
+  void assemble_next(const Turning& turning, std::span<const MovedPlace> places);
+  bool has_columns_left() const { return next_column_ < e_; }
+  /// False if the block of E is not positive definite.
+  [[nodiscard]] bool eliminate_next();
+  void finish();
+
+  /// All steps; all parts must be in place.
+  template <class IsComplete>
+  [[nodiscard]] bool condense(IsComplete&& is_complete, Condensed& out) {
+    divide(is_complete, out);
+    while (next_part() != nullptr) assemble_next({}, {});
+    while (has_columns_left()) {
+      if (!eliminate_next()) return false;
+    }
+    finish();
+    return true;
   }
 
-  // The residual of a condensed front.
-  void begin_residual(const Condensed& front);
-  /// Adds a part's residual of its boundary (b).
-  void add_residual(const Condensed& part, const Eigen::Ref<const Eigen::VectorXd>& r);
-  void add_residual(int slot, const Eigen::Vector2d& r);
-  /// Sets y and s.
-  void condense_residual(Condensed& front);
-
   /// Of the arrays of its results.
-  ArrayPool& pool() { return *pool_; }
-  /// The number of unknowns. [-]
-  int size() const { return size_; }
+  ArrayPool& pool() { return pool_; }
+  std::int64_t blocks_touched() const { return blocks_touched_; }
   std::size_t memory_bytes() const;
 
  private:
-  struct Rows {
-    int front = 0;  // number of the front in which it was last
-    int index = 0;  // among variables_, until it has a row
-    int row = 0;
-    bool tied = false;
-    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> lever;
-  };
-  /// The target of a row of a part: one row of the front, and for a tied landmark a second one with this weight.
-  struct Target {
-    int row;
-    int second;
-    double weight;
-  };
-
-  Rows& rows_of(FrontVariable v);
   std::size_t index_of(FrontVariable v);
-  void give_rows(const Condensed& front);
-  void add_targets(FrontVariable v);
-  void find_targets(const Condensed& part);
-  void clear_matrix(Condensed& out);
-  std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
-  double& entry(int i, int j);
-  void add_product(const Target& i, const Target& j, double value, bool diagonal);
-  struct Part {
-    const Condensed* condensed;
-    int first_place;  // among places_, or -1
-  };
-  const double* in_its_place(const Part& part);
+  void begin_matrix(Condensed& out);
   void add_untied(const double* S);
-  void add_tied(const Condensed& part, const double* S);
+  void add_tied(Eigen::Index b, const double* S);
   void list_moved_rows();
-  void add_to_rows(const Target& target, double value);
-  void assemble(Condensed& out);
+  void add_residual(const double* r);
+  double& entry(int i, int j);
+  std::ptrdiff_t col_of_B(std::ptrdiff_t row) const { return (row - e_) * (size_ - e_); }
   static void fold(double* square, Eigen::Index stride, Eigen::Index n);
-  bool eliminate(Eigen::Index b);
-  bool factorise(Condensed& out);
 
-  std::unique_ptr<ArrayPool> pool_ = std::make_unique<ArrayPool>();  // stays where it is if the front moves
-  int front_ = 0;
-  int size_ = 0;
-  ChunkedArray<Rows> landmarks_, groups_;
+  ArrayPool pool_;
+  FrontRows rows_;
   std::vector<Variable> variables_;
+  std::vector<FrontVariable> damped_;
   std::vector<Part> parts_;
-  std::vector<MovedPlace> places_;  // of the variables of such parts
-  std::vector<Target> targets_;     // of the rows of one part
-  bool any_tied_ = false;           // among them
+  std::size_t next_part_ = 0;
+  MovedPart moved_;
   std::vector<int> moved_rows_, column_of_row_;
-  int e_ = 0;               // rows of E
-  double* of_E_ = nullptr;  // (n x e) columns of the matrix: in the message that is being made
-  Eigen::VectorXd of_B_;    // (b x b), with room to grow, as all below
-  Eigen::VectorXd half_, transposed_, square_, turned_;
+  Condensed* out_ = nullptr;
+  int size_ = 0, e_ = 0, next_column_ = 0;  // rows in all, of E, and those that are done
+  double* of_E_ = nullptr;                  // (n x e) columns of the matrix: in the message that is being made
+  Eigen::VectorXd of_B_;                    // (b x b), with room to grow, as all below
+  Eigen::VectorXd half_, transposed_;
   Eigen::VectorXd r_;
-  double near_ = 0.0;
-  MovedBoundary moved_;
+  std::int64_t blocks_touched_ = 0;
 };
 
 }  // namespace seif

@@ -13,8 +13,9 @@ class Homes {
   void begin() { offsets_.clear(); }
   /// A landmark in the window.
   void add(const Eigen::Vector2d& home, const Eigen::Vector2d& mean) { offsets_.push_back(home - mean); }
-  /// Takes the median. Without landmarks everything stays. `far`: offsets farther apart belong to other parts of
-  /// the map, which a closure has brought together [m].
+  /// Takes the offset of the landmark that has the smallest sum of distances to the others' offsets, so that the result
+  /// turns with the frame of the world. Without landmarks everything stays. `far`: offsets farther apart belong to
+  /// other parts of the map, which a closure has brought together [m].
   void finish(double far);
 
   /// From where something near the robot is. [m]
@@ -26,7 +27,6 @@ class Homes {
   Eigen::Vector2d offset_ = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> other_;
   std::vector<Eigen::Vector2d> offsets_;
-  std::vector<double> sorted_;
 };
 
 }  // namespace seif

@@ -8,10 +8,11 @@ namespace seif {
 void HotZone::reserve(int landmarks) {
   const Eigen::Index rows = 2 * landmarks;
   if (rows <= F_.rows()) return;
-  const Eigen::Index room = std::max<Eigen::Index>(rows, 2 * F_.rows());
+  const Eigen::Index room = rows + rows / 4;
   F_.conservativeResizeLike(Eigen::MatrixXd::Zero(room, room));
   mean_.conservativeResize(room);
   s_.conservativeResize(room);
+  step_.resize(room);
   columns_.resize(room, room);
   swept_.resize(room, room);
   pivot_.resize(room, room);
@@ -33,13 +34,18 @@ void HotZone::load(const Condensed& all) {
   }
   mean_.head(n).setZero();
   s_.head(n) = Eigen::Map<const Eigen::VectorXd>(all.s.data(), n);
-  blocks_touched_ += all.blocks();
+  blocks_touched_ += all.boundary_blocks();
 }
 
-void HotZone::bring(MovedBoundary& moved) {
+void HotZone::bring(MovedBoundary& moved, std::span<const MovedPlace> places) {
   const Eigen::Index n = 2 * size();
-  moved.bring(F_.topLeftCorner(n, n));
+  auto F = F_.topLeftCorner(n, n);
+  auto d = step_.head(n);
+  moved.steps(places, d);
+  s_.head(n).noalias() -= F * d;
+  moved.bring(F);
   moved.bring_residual(s_.head(n));
+  blocks_touched_ += all_blocks();
 }
 
 int HotZone::add(int slot, const Eigen::Vector2d& mean) {
@@ -116,7 +122,7 @@ bool HotZone::sweep(std::span<const int> indices, double sign) {
       block(indices[i], indices[j]) = -sign * inverse.block<2, 2>(at(i), at(j));
     members_[static_cast<std::size_t>(indices[j])].active = sign < 0.0;
   }
-  blocks_touched_ += std::int64_t{size()} * (size() + 1) / 2;
+  blocks_touched_ += all_blocks();
   return true;
 }
 

@@ -32,8 +32,8 @@ class HotZone {
   /// Adds a landmark to A that only the window knows. Returns its index in the zone.
   int add(int slot, const Eigen::Vector2d& mean);
 
-  /// Before any landmark is in P.
-  void bring(MovedBoundary& moved);
+  /// What was known where its landmarks were before goes to `places`, where they are now. Before any is in P.
+  void bring(MovedBoundary& moved, std::span<const MovedPlace> places);
 
   int size() const { return static_cast<int>(members_.size()); }
   int slot(int index) const { return member(index).slot; }
@@ -87,6 +87,7 @@ class HotZone {
     bool active;
   };
   const Member& member(int index) const { return members_[static_cast<std::size_t>(index)]; }
+  std::int64_t all_blocks() const { return std::int64_t{size()} * (size() + 1) / 2; }
   void reserve(int landmarks);
   void list_rest(std::span<const int> indices);
   void spread_change(double sign);
@@ -99,6 +100,7 @@ class HotZone {
   Eigen::VectorXd s_;
   std::vector<int> rest_;  // indices that a sweep does not take
   Eigen::MatrixXd columns_, swept_, pivot_, change_;
+  Eigen::VectorXd step_;
   std::int64_t blocks_touched_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "seif/tree/room.hpp"
+
 namespace seif {
 
 void grow(ArrayPool& pool, Condensed& element) {
@@ -23,17 +25,11 @@ void grow(ArrayPool& pool, Condensed& element) {
   element.s.resize(static_cast<std::size_t>(now), 0.0);
 }
 
-Eigen::Map<Eigen::MatrixXd> ElementMover::unpacked(const Condensed& element) {
-  const Eigen::Index b = element.b;
-  if (square_.size() < b * b) square_.resize(2 * b * b);
-  Eigen::Map<Eigen::MatrixXd> S(square_.data(), b, b);
-  element.unpack(S);
-  return S;
-}
-
 void ElementMover::turn(const BodyMotion& motion, Condensed& element) {
   if (motion.is_identity() || element.b == 0) return;
-  auto S = unpacked(element);
+  make_room(square_, Eigen::Index{element.b} * element.b);
+  Eigen::Map<Eigen::MatrixXd> S(square_.data(), element.b, element.b);
+  element.unpack(S);
   for (int row = 0; row < element.b; row += 2) {
     for (int k = 0; k < element.b; ++k) S.block<2, 1>(row, k) = (motion.R * S.block<2, 1>(row, k)).eval();
   }
@@ -48,16 +44,12 @@ void ElementMover::turn(const BodyMotion& motion, Condensed& element) {
   element.pack(S);
 }
 
-void ElementMover::carry(MovedBoundary& moved, std::span<const MovedPlace> places,
-                         const Eigen::Ref<const Eigen::VectorXd>& r, Condensed& element) {
-  auto S = unpacked(element);
-  moved.bring(S);
-  element.pack(S);
-  for (int i = 0; i < element.b / 2; ++i) {
-    const Eigen::Vector2d& p = places[static_cast<std::size_t>(i)].now;
-    Eigen::Map<Eigen::Vector2d>(&element.reference[static_cast<std::size_t>(2 * i)]) = p;
-    Eigen::Map<Eigen::Vector2d>(&element.s[static_cast<std::size_t>(2 * i)]) = r.segment<2>(2 * i);
-  }
+void ElementMover::carry(const Turning& turning, std::span<const MovedPlace> places, Condensed& element) {
+  moved_.bring(turning, places, element);
+  std::copy_n(moved_.S(), element.S.size(), element.S.data());
+  element.s.assign(moved_.r(), moved_.r() + element.b);
+  double* reference = element.reference.data();
+  for (const MovedPlace& place : places) reference = std::copy_n(place.now.data(), 2, reference);
 }
 
 }  // namespace seif

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -10,7 +11,7 @@
 #include "seif/tree/array_pool.hpp"
 #include "seif/tree/body_motion.hpp"
 #include "seif/tree/condensed.hpp"
-#include "seif/tree/moved_boundary.hpp"
+#include "seif/tree/moved_part.hpp"
 
 namespace seif {
 
@@ -26,23 +27,22 @@ void grow(ArrayPool& pool, Condensed& element);
 class ElementMover {
  public:
   void turn(const BodyMotion& motion, Condensed& element);
-  /// Its landmarks are at `places` now, where it has the residual r (b): these become its reference and its s. It says
+  /// Its landmarks are at `places` now: these become its reference, with what it says, and how it pulls, there. It says
   /// nothing of moving and turning them from there.
-  void carry(MovedBoundary& moved, std::span<const MovedPlace> places,
-             const Eigen::Ref<const Eigen::VectorXd>& r, Condensed& element);
+  void carry(const Turning& turning, std::span<const MovedPlace> places, Condensed& element);
 
  private:
-  Eigen::Map<Eigen::MatrixXd> unpacked(const Condensed& element);
-
+  MovedPart moved_;
   Eigen::VectorXd square_;  // (b x b), with room to grow
 };
 
-/// The residual that a piece has where its members are at mean_of(slot): V times the result (2 x 1).
+/// The residual of a piece's member i where the members are at mean_of(slot).
 template <class MeanOf>
-Eigen::Vector2d residual_of(const FrozenPiece& piece, MeanOf&& mean_of) {
-  Eigen::Vector2d y = piece.y;
-  for (const FrozenPiece::Member& m : piece.members) y -= m.V.transpose() * (mean_of(m.slot) - m.reference);
-  return y;
+Eigen::Vector2d residual_of(const FrozenPiece& piece, std::size_t i, MeanOf&& mean_of) {
+  Eigen::Vector2d r(piece.r[2 * i], piece.r[2 * i + 1]);
+  for (std::size_t j = 0; j < piece.members.size(); ++j)
+    r -= piece.block(i, j) * (mean_of(piece.members[j].slot) - piece.members[j].reference);
+  return r;
 }
 
 template <class IndexOf>
@@ -54,16 +54,16 @@ void add_piece(const FrozenPiece& piece, IndexOf&& index_of, ArrayPool& pool, Co
     if (row_of(m.slot) < b_before) continue;
     Eigen::Map<Eigen::Vector2d>(&element.reference[static_cast<std::size_t>(row_of(m.slot))]) = m.reference;
   }
-  const Eigen::Vector2d y = residual_of(piece, [&](int slot) {
-    return Eigen::Vector2d(
-        Eigen::Map<const Eigen::Vector2d>(&element.reference[static_cast<std::size_t>(row_of(slot))]));
-  });
-  for (const FrozenPiece::Member& m : piece.members) {
-    const Eigen::Index i = row_of(m.slot);
-    Eigen::Map<Eigen::Vector2d>(&element.s[static_cast<std::size_t>(i)]) += m.V * y;
-    for (const FrozenPiece::Member& n : piece.members) {
-      const Eigen::Index j = row_of(n.slot);
-      if (j <= i) element.add_to_S(i, j, m.V * n.V.transpose());
+  const auto reference_of = [&](int slot) -> Eigen::Vector2d {
+    return Eigen::Map<const Eigen::Vector2d>(&element.reference[static_cast<std::size_t>(row_of(slot))]);
+  };
+  for (std::size_t i = 0; i < piece.members.size(); ++i) {
+    const Eigen::Index row = row_of(piece.members[i].slot);
+    Eigen::Map<Eigen::Vector2d>(&element.s[static_cast<std::size_t>(row)]) +=
+        residual_of(piece, i, reference_of);
+    for (std::size_t j = 0; j < piece.members.size(); ++j) {
+      const Eigen::Index col = row_of(piece.members[j].slot);
+      if (col <= row) element.add_to_S(row, col, piece.block(i, j));
     }
   }
 }

@@ -93,6 +93,8 @@ void LeafTree::attach(int leaf) {
   at(inner).child[1 - side] = sibling;
   at(leaf).parent = at(leaf).towards = inner;
   at(inner).leaves = at(sibling).leaves;
+  at(inner).cover = cover(sibling);
+  cover_above(leaf, box(leaf));
   for (int n = inner; n != none; n = at(n).parent) ++at(n).leaves;
   for (const int n : {leaf, inner, sibling, at(inner).parent}) {
     if (n != none) at(n).planned_towards = at(n).towards;
@@ -130,7 +132,17 @@ Eigen::Vector2d LeafTree::centre(int node) const {
   return T_world_grid_ * Eigen::Vector2d(box(node).center());
 }
 
-void LeafTree::widen(int leaf, const Eigen::Vector2d& p_world) { at(leaf).box.extend(in_grid(p_world)); }
+void LeafTree::widen(int leaf, const Eigen::Vector2d& p_world) {
+  const Eigen::Vector2d p = in_grid(p_world);
+  at(leaf).box.extend(p);
+  cover_above(leaf, Box(p));
+}
+
+/// The nodes above a node cover this box, too.
+void LeafTree::cover_above(int node, const Box& box) {
+  for (int n = at(node).parent; n != none && !at(n).cover.contains(box); n = at(n).parent)
+    at(n).cover.extend(box);
+}
 
 int LeafTree::common_ancestor(std::span<const int> leaves) {
   assert(!leaves.empty());

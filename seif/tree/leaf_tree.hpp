@@ -56,6 +56,8 @@ class LeafTree {
   /// For an inner node: the rectangle that it represents. For a leaf: the box that it was widened to. In the grid's
   /// frame. [m]
   const Box& box(int node) const { return at(node).box; }
+  /// What all boxes of the leaves below it lie in. A box may reach out of the rectangles above it. [m]
+  const Box& cover(int node) const { return is_leaf(node) ? at(node).box : at(node).cover; }
   /// The middle of its box, in the world. [m]
   Eigen::Vector2d centre(int node) const;
   void widen(int leaf, const Eigen::Vector2d& p_world);
@@ -97,7 +99,7 @@ class LeafTree {
     while (!near_.empty()) {
       const int node = near_.back();
       near_.pop_back();
-      if (box(node).squaredExteriorDistance(p) > distance * distance) continue;
+      if (cover(node).squaredExteriorDistance(p) > distance * distance) continue;
       if (is_leaf(node)) {
         visit(node);
       } else {
@@ -121,6 +123,7 @@ class LeafTree {
     int child[2] = {none, none};
     int towards = none, planned_towards = none;
     Box box;
+    Box cover;              // of an inner node
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
     int leaves = 0;         // [-] below it
@@ -134,6 +137,7 @@ class LeafTree {
   Eigen::Vector2d in_grid(const Eigen::Vector2d& p_world) const;
   int add_node();
   int insert_above(int below);
+  void cover_above(int node, const Box& box);
 
   Pose2 T_world_grid_;
   ChunkedArray<Node> nodes_;

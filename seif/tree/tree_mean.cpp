@@ -5,8 +5,7 @@ namespace seif {
 /// The solution for the window is that for all landmarks: the others follow when somebody looks.
 bool TreeMean::end_update(InformationState& state) {
   if (!tree_.solve_window(state)) return false;
-  tree_.end_update(state);
-  return true;
+  return tree_.end_update(state);
 }
 
 }  // namespace seif

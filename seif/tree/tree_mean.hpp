@@ -19,8 +19,8 @@ class TreeMean final : public MeanKeeper {
   }
   [[nodiscard]] bool solve_window(InformationState& state) override { return tree_.solve_window(state); }
   void join(const InformationState& state, int slot) override { tree_.join(state, slot); }
-  [[nodiscard]] bool freeze(const InformationState& state, std::span<const FrozenPiece> pieces) override {
-    return tree_.freeze(state, pieces);
+  [[nodiscard]] bool freeze(const InformationState& state, const FrozenPiece& piece) override {
+    return tree_.freeze(state, piece);
   }
   [[nodiscard]] bool end_update(InformationState& state) override;
   Eigen::Vector2d mean(const InformationState& state, int slot) const override {

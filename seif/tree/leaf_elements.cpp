@@ -1,0 +1,74 @@
+#include "seif/tree/leaf_elements.hpp"
+
+namespace seif {
+
+void LeafElements::add(const FrozenPiece& piece, const HotZone& zone) {
+  if (piece.members.empty()) return;
+  const int owner = owner_of(piece);
+  Condensed& element = records_.node(owner).own;
+  mover_.turn(motion_in(zone, element), element);
+  ++visit_;
+  for (std::size_t i = 0; i < element.boundary.size(); ++i) {
+    CondensedLandmark& p = records_.landmark(element.boundary[i].variable);
+    p.visit = visit_;
+    p.row = static_cast<int>(i);
+  }
+  for (const FrozenPiece::Member& m : piece.members) mention(m.slot, m.reference, owner);
+  add_piece(
+      piece, [&](int slot) { return records_.landmark(slot).row; }, pool_, element);
+  blocks_touched_ += Condensed::blocks_of(piece.rows()) + element.boundary_blocks();
+}
+
+/// By the element of this leaf; a landmark that is new in the map by its own leaf's, too.
+void LeafElements::mention(int slot, const Eigen::Vector2d& reference, int owner) {
+  CondensedLandmark& p = records_.landmark(slot);
+  if (p.visit == visit_) return;
+  Condensed& element = records_.node(owner).own;
+  p.visit = visit_;
+  p.row = static_cast<int>(element.boundary.size());
+  element.boundary.push_back({slot, 0});
+  if (p.leaves == 0 && p.leaf != owner) {
+    Condensed& home = records_.node(p.leaf).own;
+    home.boundary.push_back({slot, 0});
+    grow(pool_, home);
+    Eigen::Map<Eigen::Vector2d>(&home.reference[home.reference.size() - 2]) = reference;
+    ++p.leaves;
+  }
+  ++p.leaves;
+}
+
+/// The leaf of one of its members whose element mentions most of them already: so elements stay small.
+int LeafElements::owner_of(const FrozenPiece& piece) {
+  int best = none;
+  std::size_t least = 0;
+  for (const FrozenPiece::Member& m : piece.members) {
+    const int leaf = records_.landmark(m.slot).leaf;
+    if (leaf == best || leaf == records_.held_leaf) continue;
+    ++visit_;
+    for (const Condensed::Member& other : records_.node(leaf).own.boundary)
+      records_.landmark(other.variable).visit = visit_;
+    std::size_t missing = 0;
+    for (const FrozenPiece::Member& other : piece.members) {
+      if (records_.landmark(other.slot).visit != visit_) ++missing;
+    }
+    if (best != none && missing >= least) continue;
+    best = leaf;
+    least = missing;
+  }
+  return best != none ? best : records_.held_leaf;
+}
+
+BodyMotion LeafElements::motion_in(const HotZone& zone, const Condensed& element) {
+  boundary_.begin(records_.turning());
+  const double* reference = element.reference.data();
+  for (const Condensed::Member& m : element.boundary) {
+    if (const int h = records_.landmark(m.variable).zone_index; h != none) {
+      const Eigen::Vector2d now = zone.mean(h);
+      boundary_.add(records_.moved_place(m.variable, reference, now.data()));
+    }
+    reference += 2;
+  }
+  return boundary_.fit();
+}
+
+}  // namespace seif
