@@ -138,8 +138,8 @@ class CondensationTree {
   void read_zone(const InformationState& state) const;
   void read(const InformationState& state, int at) const;
 
+  Front front_;  // before what holds its arrays
   CondensationRecords records_;
-  Front front_;
   HotZone zone_;
   CondensationPlan plan_;
   HeldLandmarks held_;

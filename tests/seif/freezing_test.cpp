@@ -5,8 +5,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "allocation_counter.hpp"
 #include "dense_oracle.hpp"
 #include "driven_state.hpp"
 #include "seif/full_state.hpp"
@@ -66,6 +68,30 @@ std::vector<int> unlinked(InformationState& state) {
   return slots;
 }
 
+/// What a piece is over all landmarks, in the order of full_Omega(). (3+2N x 3+2N)
+Eigen::MatrixXd whole(const FrozenPiece& piece, const InformationState& state) {
+  const Eigen::Index size = InformationState::row_of(state.landmark_count());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t i = 0; i < piece.members.size(); ++i) {
+    for (std::size_t j = 0; j < piece.members.size(); ++j)
+      all.block<2, 2>(3 + 2 * piece.members[i].slot, 3 + 2 * piece.members[j].slot) += piece.block(i, j);
+  }
+  return all;
+}
+
+/// Its residual (3+2N).
+Eigen::VectorXd whole_r(const FrozenPiece& piece, const InformationState& state) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(InformationState::row_of(state.landmark_count()));
+  for (std::size_t i = 0; i < piece.members.size(); ++i)
+    all.segment<2>(3 + 2 * piece.members[i].slot) += Eigen::Vector2d(piece.r[2 * i], piece.r[2 * i + 1]);
+  return all;
+}
+
+/// Residuals in the window as if the mean were not the latest solution.
+void displace(InformationState& state) {
+  for (int i = 0; i < state.r().size(); ++i) state.r()(i) = std::sin(i);
+}
+
 /// Both translations, and the turn about the origin, at the point where a landmark is linearised. (2 x 3)
 Eigen::Matrix<double, 2, 3> modes_of(const InformationState& state, int slot) {
   const Eigen::Vector2d p = linearisation_point(state, slot);
@@ -77,18 +103,12 @@ TEST(Freezing, WhatIsFrozenAndWhatStaysAreTheWhole) {
     InformationState state = driven(seed);
     const std::vector<int> slots = unlinked(state);
     const Eigen::MatrixXd before = oracle::symmetric(full_Omega(state));
-    std::vector<FrozenPiece> pieces;
-    ASSERT_TRUE(freeze(state, slots, pieces));
-    ASSERT_EQ(pieces.size(), slots.size());
+    FrozenPiece piece;
+    ASSERT_TRUE(freeze(state, slots, piece));
+    ASSERT_EQ(piece.slots, slots);
     EXPECT_EQ(state.active_count(), 4);
     EXPECT_LT(relative(oracle::symmetric(full_Omega(state)), before), rounding);
-    Eigen::MatrixXd frozen = Eigen::MatrixXd::Zero(before.rows(), before.cols());
-    for (const FrozenPiece& piece : pieces) {
-      for (const FrozenPiece::Member& m : piece.members) {
-        for (const FrozenPiece::Member& n : piece.members)
-          frozen.block<2, 2>(3 + 2 * m.slot, 3 + 2 * n.slot) += m.V * n.V.transpose();
-      }
-    }
+    const Eigen::MatrixXd frozen = whole(piece, state);
     for (const int slot : slots) {
       EXPECT_LT((frozen - before).middleRows<2>(3 + 2 * slot).norm(), rounding * before.norm());
     }
@@ -99,17 +119,16 @@ TEST(Freezing, NothingThatIsFrozenTellsOfPlaceAndHeadingOfTheWhole) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     InformationState state = driven(seed);
     const std::vector<int> slots = unlinked(state);
-    std::vector<FrozenPiece> pieces;
-    ASSERT_TRUE(freeze(state, slots, pieces));
-    for (const FrozenPiece& piece : pieces) {
-      Eigen::Matrix<double, 2, 3> sum = Eigen::Matrix<double, 2, 3>::Zero();
-      double size = 0.0;
-      for (const FrozenPiece::Member& m : piece.members) {
-        sum += m.V.transpose() * modes_of(state, m.slot);
-        size += m.V.norm();
-      }
-      EXPECT_GT(size, 0.0);
-      EXPECT_LT(sum.norm(), rounding * size) << "slot " << piece.slot;
+    FrozenPiece piece;
+    ASSERT_TRUE(freeze(state, slots, piece));
+    const Eigen::MatrixXd frozen = whole(piece, state);
+    Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(frozen.rows(), 3);
+    for (const FrozenPiece::Member& m : piece.members)
+      modes.middleRows<2>(3 + 2 * m.slot) = modes_of(state, m.slot);
+    for (const FrozenPiece::Member& m : piece.members) {
+      const auto rows = frozen.middleRows<2>(3 + 2 * m.slot);
+      EXPECT_GT(rows.norm(), 0.0);
+      EXPECT_LT((rows * modes).norm(), rounding * rows.norm()) << "slot " << m.slot;
     }
   }
 }
@@ -117,15 +136,103 @@ TEST(Freezing, NothingThatIsFrozenTellsOfPlaceAndHeadingOfTheWhole) {
 TEST(Freezing, TheResidualIsSharedWithoutLoss) {
   InformationState state = driven(4);
   const std::vector<int> slots = unlinked(state);
-  for (int i = 0; i < state.r().size(); ++i) state.r()(i) = std::sin(i);
+  displace(state);
   const Eigen::VectorXd before = full_r(state);
-  std::vector<FrozenPiece> pieces;
-  ASSERT_TRUE(freeze(state, slots, pieces));
-  Eigen::VectorXd now = full_r(state);
-  for (const FrozenPiece& piece : pieces) {
-    for (const FrozenPiece::Member& m : piece.members) now.segment<2>(3 + 2 * m.slot) += m.V * piece.y;
-  }
+  FrozenPiece piece;
+  ASSERT_TRUE(freeze(state, slots, piece));
+  const Eigen::VectorXd now = full_r(state) + whole_r(piece, state);
   EXPECT_LT((now - before).norm(), rounding * before.norm());
+}
+
+TEST(Freezing, ABurstIsTheSumOfItsLandmarksOneAfterTheOther) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    InformationState together = driven(seed);
+    const std::vector<int> slots = unlinked(together);
+    ASSERT_GT(slots.size(), 2U);
+    displace(together);
+    InformationState each = together;
+    FrozenPiece burst;
+    ASSERT_TRUE(freeze(together, slots, burst));
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(full_r(each).size(), full_r(each).size());
+    Eigen::VectorXd sum_r = Eigen::VectorXd::Zero(sum.rows());
+    for (const int slot : slots) {
+      FrozenPiece piece;
+      ASSERT_TRUE(freeze(each, std::vector{slot}, piece));
+      sum += whole(piece, each);
+      sum_r += whole_r(piece, each);
+    }
+    EXPECT_LT(relative(whole(burst, together), sum), 1e-10);
+    EXPECT_LT(relative(whole_r(burst, together), sum_r), 1e-10);
+    ASSERT_EQ(together.active_count(), each.active_count());
+    EXPECT_LT(relative(together.Omega(), each.Omega()), 1e-10);
+    EXPECT_LT(relative(together.r(), each.r()), 1e-10);
+  }
+}
+
+/// In a burst with one that nothing is known of, and with two that only one another tells of.
+TEST(Freezing, LandmarksWithoutInformationFreezeNothing) {
+  InformationState state = driven(5);
+  std::vector<int> slots = unlinked(state);
+  displace(state);
+  InformationState without = state;
+  FrozenPiece of_others;
+  ASSERT_TRUE(freeze(without, slots, of_others));
+  const int unknown = state.add_landmark(100, {3.0, 4.0});
+  const int a = state.add_landmark(101, {6.0, 4.0});
+  const int b = state.add_landmark(102, {6.0, 5.0});
+  for (const int slot : {unknown, a, b}) state.activate(slot);
+  const int row_a = InformationState::row_of(state.position(a));
+  const int row_b = InformationState::row_of(state.position(b));
+  for (const int i : {row_a, row_b}) {
+    for (const int j : {row_a, row_b})
+      state.Omega().block<2, 2>(i, j) += (i == j ? 400.0 : -400.0) * Eigen::Matrix2d::Identity();
+  }
+  slots.insert(slots.begin() + 1, {unknown, a});
+  slots.push_back(b);
+  const Eigen::MatrixXd before = oracle::symmetric(full_Omega(state));
+  FrozenPiece piece;
+  ASSERT_TRUE(freeze(state, slots, piece));
+  EXPECT_EQ(state.active_count(), 4);
+  EXPECT_LT(relative(oracle::symmetric(full_Omega(state)), before), rounding);
+  for (const FrozenPiece::Member& m : piece.members) EXPECT_NE(m.slot, unknown);
+  const Eigen::MatrixXd frozen = whole(piece, state);
+  ASSERT_TRUE(frozen.allFinite());
+  EXPECT_LT((frozen - before).middleRows<2>(3 + 2 * a).norm(), rounding * before.norm());
+  EXPECT_LT((frozen - before).middleRows<2>(3 + 2 * b).norm(), rounding * before.norm());
+  const Eigen::MatrixXd expected = whole(of_others, without);
+  EXPECT_LT(relative(frozen.topLeftCorner(expected.rows(), expected.cols()), expected), 1e-10);
+  const Eigen::VectorXd expected_r = whole_r(of_others, without);
+  EXPECT_LT(relative(whole_r(piece, state).head(expected_r.size()), expected_r), 1e-10);
+}
+
+TEST(Freezing, RefusesWhatIsNotPositiveSemidefinite) {
+  InformationState state = driven(6);
+  const std::vector<int> slots = unlinked(state);
+  const int row = InformationState::row_of(state.position(slots.back()));
+  state.Omega().block<2, 2>(row, row) *= -1.0;
+  FrozenPiece piece;
+  EXPECT_FALSE(freeze(state, slots, piece));
+}
+
+TEST(Freezing, ASecondBurstOfTheSameSizeAllocatesNothing) {
+  if (COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "the sanitizer has a malloc of its own";
+  InformationState state = driven(7);
+  const std::vector<int> slots = unlinked(state);
+  FrozenPiece piece;
+  ASSERT_TRUE(freeze(state, slots, piece));  // it makes the links of the graph, too
+  for (const int slot : slots) state.activate(slot);
+  for (const int slot : slots) {  // observed from a landmark that stayed
+    const int row = InformationState::row_of(state.position(slot));
+    const int other = InformationState::row_of(0);
+    for (const int i : {row, other}) {
+      for (const int j : {row, other})
+        state.Omega().block<2, 2>(i, j) += (i == j ? 400.0 : -400.0) * Eigen::Matrix2d::Identity();
+    }
+  }
+  const long before = allocations();
+  ASSERT_TRUE(freeze(state, slots, piece));
+  EXPECT_EQ(allocations(), before);
+  EXPECT_EQ(piece.members.size(), slots.size() + 1);
 }
 
 TEST(StartPoints, TellWhereTheRobotBeganAndNothingOfPlaceAndHeading) {

@@ -403,6 +403,33 @@ TEST(LeafTree, WhatStandsBelowANodeLiesInItsRectangle) {
   }
 }
 
+TEST(LeafTree, FindsALeafThatReachesFarOutOfItsRectangle) {
+  LeafTree tree{Pose2{}};
+  const std::vector<int> leaves = scatter_leaves(tree);
+  const auto is_found = [&](int leaf, const Eigen::Vector2d& p) {
+    bool is_found = false;
+    tree.for_each_leaf_near(p, 1.0, [&](int near) { is_found = is_found || near == leaf; });
+    return is_found;
+  };
+  int i = 0;
+  for (const int leaf : leaves) {  // each to another place
+    const Eigen::Vector2d p = Eigen::Vector2d(3000.0 + 50.0 * i, -2000.0 + 20.0 * i);
+    EXPECT_FALSE(is_found(leaf, p));
+    tree.widen(leaf, p);
+    EXPECT_TRUE(is_found(leaf, p));
+    ++i;
+  }
+  const int late = tree.new_leaf();  // wide before it is in the tree
+  const Eigen::Vector2d far(-9000.0, 500.0);
+  for (const Eigen::Vector2d& p : {Eigen::Vector2d(1.0, 1.0), far}) tree.widen(late, p);
+  tree.attach(late);
+  EXPECT_TRUE(is_found(late, far));
+  for (const int leaf : leaves) {
+    for (int n = leaf; n != LeafTree::none; n = tree.parent(n))
+      EXPECT_TRUE(tree.cover(n).contains(tree.box(leaf)));
+  }
+}
+
 TEST(LeafTree, ANodeIsWithinThoseAboveIt) {
   LeafTree tree{Pose2{}};
   scatter_leaves(tree);

@@ -65,7 +65,7 @@ struct Twins {
     update_first_estimates(exact);
     sparsify(theta_x, theta_max);
     solve();
-    tree.end_update(state);
+    ASSERT_TRUE(tree.end_update(state));
   }
 
   bool activate_known(const Scan& scan) {
@@ -131,9 +131,9 @@ struct Twins {
     if (dropped.empty()) return;
     ASSERT_TRUE(seif::sparsify(state, SparsificationRule::gauge_free, dropped));
     ASSERT_TRUE(seif::sparsify(exact, SparsificationRule::gauge_free, dropped));
-    std::vector<FrozenPiece> pieces;
-    ASSERT_TRUE(freeze(state, dropped, pieces));
-    ASSERT_TRUE(tree.freeze(state, pieces));
+    FrozenPiece piece;
+    ASSERT_TRUE(freeze(state, dropped, piece));
+    ASSERT_TRUE(tree.freeze(state, piece));
   }
 
   /// The largest distance of a landmark, or of the robot, from the exact solution. [m]

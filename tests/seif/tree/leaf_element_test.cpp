@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <vector>
 
+#include "seif/packed_triangle.hpp"
 #include "seif/tree/body_motion.hpp"
 #include "seif/tree/moved_boundary.hpp"
 
@@ -33,11 +36,14 @@ struct Pieces {
       for (Eigen::Index k = 0; k < 4; ++k) V(i + k / 2, k % 2) = normal(random);
     }
     V -= modes * modes.householderQr().solve(V);
-    FrozenPiece piece{.slot = slots.front(), .members = {}, .y = {normal(random), normal(random)}};
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-      piece.members.push_back({slots[i], V.middleRows<2>(static_cast<Eigen::Index>(2 * i)),
-                               places[static_cast<std::size_t>(slots[i])]});
-    }
+    FrozenPiece piece;
+    piece.slots = {slots.front()};
+    for (const int slot : slots) piece.members.push_back({slot, places[static_cast<std::size_t>(slot)]});
+    const Eigen::MatrixXd Omega = V * V.transpose();
+    piece.Omega.resize(static_cast<std::size_t>(packed_size(n)));
+    pack_triangle(Omega, piece.Omega.data());
+    const Eigen::VectorXd r = V * Eigen::Vector2d(normal(random), normal(random));
+    piece.r.assign(r.begin(), r.end());
     return piece;
   }
 
@@ -96,11 +102,33 @@ TEST(LeafElement, IsTheSumOfItsPieces) {
   const Eigen::VectorXd r = residual_at(element, pieces.places);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(element.b);
   for (const FrozenPiece& piece : all) {
-    const Eigen::Vector2d y =
-        residual_of(piece, [&](int slot) { return pieces.places[static_cast<std::size_t>(slot)]; });
-    for (const FrozenPiece::Member& m : piece.members) sum.segment<2>(row_of(element, m.slot)) += m.V * y;
+    const auto mean_of = [&](int slot) { return pieces.places[static_cast<std::size_t>(slot)]; };
+    for (std::size_t i = 0; i < piece.members.size(); ++i)
+      sum.segment<2>(row_of(element, piece.members[i].slot)) += residual_of(piece, i, mean_of);
   }
   EXPECT_LT((r - sum).norm(), rounding * sum.norm());
+}
+
+TEST(LeafElement, APieceHoldsItsBlocksAndPullsByThem) {
+  Pieces pieces(4);
+  const FrozenPiece piece = pieces.piece({0, 2, 5, 3});
+  Eigen::MatrixXd Omega(8, 8);
+  unpack_triangle(piece.Omega.data(), Omega);
+  Eigen::VectorXd d(8), r(8);
+  for (Eigen::Index i = 0; i < 8; ++i) d(i) = pieces.normal(pieces.random);
+  const auto mean_of = [&](int slot) -> Eigen::Vector2d {
+    Eigen::Index i = 0;
+    while (piece.members[static_cast<std::size_t>(i)].slot != slot) ++i;
+    return piece.members[static_cast<std::size_t>(i)].reference + d.segment<2>(2 * i);
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_EQ(piece.block(i, j), (Omega.block<2, 2>(row, static_cast<Eigen::Index>(2 * j))));
+    r.segment<2>(row) = residual_of(piece, i, mean_of);
+  }
+  const Eigen::VectorXd expected = Eigen::Map<const Eigen::VectorXd>(piece.r.data(), 8) - Omega * d;
+  EXPECT_LT((r - expected).norm(), rounding * expected.norm());
 }
 
 TEST(LeafElement, TurnedAndShiftedAsAWholeItFeelsNoPull) {
@@ -109,7 +137,7 @@ TEST(LeafElement, TurnedAndShiftedAsAWholeItFeelsNoPull) {
   Condensed element;
   for (const std::vector<int>& slots : {std::vector{0, 1, 2, 3}, {4, 1, 5, 6}}) {
     FrozenPiece piece = pieces.piece(slots);
-    piece.y.setZero();
+    std::ranges::fill(piece.r, 0.0);
     add_to(element, piece, pool);
   }
   std::vector<Eigen::Vector2d> moved = pieces.places;

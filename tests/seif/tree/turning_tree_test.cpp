@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -64,7 +65,7 @@ struct TurningTree {
     update_first_estimates(state);
     freeze_surplus();
     ASSERT_TRUE(tree.solve_window(state));
-    tree.end_update(state);
+    ASSERT_TRUE(tree.end_update(state));
   }
 
   void freeze_surplus() {
@@ -72,9 +73,9 @@ struct TurningTree {
     choose_surplus(state, {.theta_x = 6, .theta_max = 16}, dropped);
     if (dropped.empty()) return;
     ASSERT_TRUE(sparsify(state, SparsificationRule::gauge_free, dropped));
-    std::vector<FrozenPiece> pieces;
-    ASSERT_TRUE(freeze(state, dropped, pieces));
-    ASSERT_TRUE(tree.freeze(state, pieces));
+    FrozenPiece piece;
+    ASSERT_TRUE(freeze(state, dropped, piece));
+    ASSERT_TRUE(tree.freeze(state, piece));
   }
 
   /// Of window and elements, with all of them where they are now. (3+2N)
@@ -173,8 +174,7 @@ TEST(TurningTree, WhereTheWholeLiesChangesNothing) {
   const Points path = ring(15.0, 1.5);
   const Points landmarks = test::landmarks_along(path, 3);
   const Pose2 elsewhere{-400.0, 250.0, 2.5};
-  std::vector<TurningTree> trees;
-  trees.reserve(2);
+  std::deque<TurningTree> trees;
   for (const Pose2& frame : {Pose2{}, elsewhere}) {
     test::PathDrive drive(landmarks, path, 3);
     PoseEstimate start = drive.setup().start;
