@@ -150,7 +150,9 @@ TEST(Freezing, ABurstIsTheSumOfItsLandmarksOneAfterTheOther) {
     const std::vector<int> slots = unlinked(together);
     ASSERT_GT(slots.size(), 2U);
     displace(together);
-    InformationState each = together;
+    InformationState each = driven(seed);
+    ASSERT_EQ(unlinked(each), slots);
+    displace(each);
     FrozenPiece burst;
     ASSERT_TRUE(freeze(together, slots, burst));
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(full_r(each).size(), full_r(each).size());
@@ -174,7 +176,9 @@ TEST(Freezing, LandmarksWithoutInformationFreezeNothing) {
   InformationState state = driven(5);
   std::vector<int> slots = unlinked(state);
   displace(state);
-  InformationState without = state;
+  InformationState without = driven(5);
+  ASSERT_EQ(unlinked(without), slots);
+  displace(without);
   FrozenPiece of_others;
   ASSERT_TRUE(freeze(without, slots, of_others));
   const int unknown = state.add_landmark(100, {3.0, 4.0});

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <random>
 #include <set>
@@ -162,13 +163,21 @@ TEST(Front, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(front.condense([](int, int) { return true; }, out));
 }
 
-/// The matrix P of a rigid motion of all landmarks about a centre, with 2 rows for each landmark.
-Eigen::MatrixXd rigid_motion(const std::vector<Eigen::Vector2d>& levers) {
-  Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(levers.size()), 3);
-  Eigen::Index row = 0;
-  for (const Eigen::Vector2d& lever : levers) {
-    P.middleRows<2>(row) << 1.0, 0.0, -lever.y(), 0.0, 1.0, lever.x();
-    row += 2;
+/// How landmarks move with a group: [x, y, phi, dilation, two shears] in axes turned by `turn`. (2n x 6)
+Eigen::MatrixXd motion_of_group(const std::vector<Eigen::Vector2d>& arms, double turn) {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
+  const Eigen::Matrix2d dilation = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d stretch{{1.0, 0.0}, {0.0, -1.0}};
+  const Eigen::Matrix2d shear{{0.0, 1.0}, {1.0, 0.0}};
+  const Eigen::Matrix2d quarter{{0.0, -1.0}, {1.0, 0.0}};
+  Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(arms.size()), 6);
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    auto rows = P.middleRows<2>(static_cast<Eigen::Index>(2 * i));
+    rows.leftCols<2>().setIdentity();
+    rows.col(2) = quarter * arms[i];
+    rows.col(3) = R * dilation * R.transpose() * arms[i];
+    rows.col(4) = R * stretch * R.transpose() * arms[i];
+    rows.col(5) = R * shear * R.transpose() * arms[i];
   }
   return P;
 }
@@ -179,7 +188,7 @@ TEST(Front, APartOfOmegaHoldsWhatItHoldsCondensed) {
   Condensed part = part_of(M, {4, 1, 3, 2});
   const Condensed whole = condensed(front, part);
   EXPECT_LT((unpacked(whole) - M).norm(), part_rounding * M.norm());
-  EXPECT_EQ(part.blocks(), whole.blocks());
+  EXPECT_EQ(part.boundary_blocks(), whole.boundary_blocks());
 
   part.s.assign(8, 0.5);
   const Eigen::VectorXd d = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
@@ -199,8 +208,8 @@ TEST(Front, PartsAreTiedInEitherForm) {
     Condensed out;
     front.begin();
     front.add(taken_in);
-    front.tie(0, group_variable(10), {1.0, 2.0});
-    front.tie(2, group_variable(10), {-3.0, 0.5});
+    front.tie(0, group_variable(10), {.arm = {1.0, 2.0}});
+    front.tie(2, group_variable(10), {.arm = {-3.0, 0.5}});
     EXPECT_TRUE(front.condense([](int v, int) { return v == 1; }, out));
     return out;
   };
@@ -211,52 +220,99 @@ TEST(Front, PartsAreTiedInEitherForm) {
     EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], part_rounding * M.norm());
 }
 
-// Four landmarks. Three of them move as one: first two of the three are tied, then all three.
-TEST(Front, WhatIsTiedMovesAsOneRigidBody) {
+// Four landmarks. Three of them move as one: first two of the three are tied, then all three. The axes of the two
+// groups are turned differently.
+TEST(Front, WhatIsTiedMovesAsItsGroup) {
   const Eigen::MatrixXd M = positive_definite(8, 5);
-  const std::vector<Eigen::Vector2d> levers{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
+  const std::vector<Eigen::Vector2d> arms{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
   const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; the smaller one's is the origin
+  constexpr double turn = 0.3;
+  constexpr double turn_of_pair = -0.5;
   Front front;
-  const Condensed landmarks = condensed(front, part_of(M, {0, 1, 2, 3}));
+  const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
+  Condensed landmarks = part_of(M, {0, 1, 2, 3});
+  landmarks.s.assign(r.begin(), r.end());
   Condensed pair, all;
   front.begin();
   front.add(landmarks);
-  front.tie(0, group_variable(10), levers[0]);
-  front.tie(1, group_variable(10), levers[1]);
+  for (const std::size_t i : {0U, 1U}) front.tie(i, group_variable(10), {.arm = arms[i], .turn = turn_of_pair});
   ASSERT_TRUE(front.condense([](int, int) { return false; }, pair));
   front.begin();
   front.add(pair);
   for (std::size_t i = 0; i < front.variables().size() && i < 4; ++i) {
     const FrontVariable v = front.variables()[i].variable;
-    if (v == 2) front.tie(i, group_variable(11), levers[2] - centre);
-    if (v == group_variable(10)) front.tie(i, group_variable(11), -centre);
+    if (v == 2) front.tie(i, group_variable(11), {.arm = arms[2] - centre, .turn = turn});
+    if (v == group_variable(10))
+      front.tie(i, group_variable(11), {.arm = -centre, .turn = turn, .own_turn = turn_of_pair});
   }
   ASSERT_TRUE(front.condense([](int v, int) { return v == 3; }, all));
 
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(8, 5);
-  P.topLeftCorner(6, 3) = rigid_motion({levers[0] - centre, levers[1] - centre, levers[2] - centre});
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(8, 8);
+  P.topLeftCorner(6, 6) = motion_of_group({arms[0] - centre, arms[1] - centre, arms[2] - centre}, turn);
   P.bottomRightCorner<2, 2>().setIdentity();
   const Eigen::MatrixXd tied = P.transpose() * M * P;
-  const Eigen::MatrixXd expected = tied.topLeftCorner<3, 3>() - tied.topRightCorner<3, 2>() *
-                                                                    tied.bottomRightCorner<2, 2>().inverse() *
-                                                                    tied.bottomLeftCorner<2, 3>();
-  ASSERT_EQ(all.b, 3);
-  Eigen::Matrix3d S;
-  S << all.S[0], all.S[1], all.S[2], all.S[1], all.S[3], all.S[4], all.S[2], all.S[4], all.S[5];
+  const Eigen::MatrixXd by_last = tied.topRightCorner(6, 2) * tied.bottomRightCorner<2, 2>().inverse();
+  const Eigen::MatrixXd expected = tied.topLeftCorner(6, 6) - by_last * tied.bottomLeftCorner(2, 6);
+  ASSERT_EQ(all.b, 6);
+  Eigen::MatrixXd S(6, 6);
+  all.unpack(S);
   EXPECT_LT((S - expected).norm(), part_rounding * expected.norm());
-
-  const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
-  front.begin_residual(pair);
-  for (int slot = 0; slot < 4; ++slot) front.add_residual(slot, r.segment<2>(2 * slot));
-  front.condense_residual(pair);
-  front.begin_residual(all);
-  front.add_residual(pair, Eigen::Map<const Eigen::VectorXd>(pair.s.data(), pair.b));
-  front.condense_residual(all);
   const Eigen::VectorXd r_tied = P.transpose() * r;
-  const Eigen::Vector3d s = r_tied.head<3>() - tied.topRightCorner<3, 2>() *
-                                                   tied.bottomRightCorner<2, 2>().inverse() *
-                                                   r_tied.tail<2>();
-  EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(all.s.data()) - s).norm(), part_rounding * s.norm());
+  const Eigen::VectorXd s = r_tied.head<6>() - by_last * r_tied.tail<2>();
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(all.s.data(), 6) - s).norm(), part_rounding * s.norm());
+}
+
+TEST(Front, AGroupThatBeginsResistsStrainALittle) {
+  const Condensed part = part_of(positive_definite(4, 8), {0, 1});
+  const auto tied = [&](Front& front, bool damped) {
+    Condensed out;
+    front.begin();
+    front.add(part);
+    front.tie(0, group_variable(3), {.arm = {1.0, 0.0}});
+    if (damped) front.damp(group_variable(3));
+    EXPECT_TRUE(front.condense([](int, int) { return false; }, out));
+    Eigen::MatrixXd S(out.b, out.b);
+    out.unpack(S);
+    return S;
+  };
+  Front front;
+  const Eigen::MatrixXd more = tied(front, true) - tied(front, false);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(8, 8);
+  for (Eigen::Index k = 5; k < 8; ++k) expected(k, k) = 400.0;  // landmark 1 has the first two rows
+  EXPECT_LT((more - expected).norm(), 1e-9);
+}
+
+// In steps of some columns, as over several updates.
+TEST(Front, ManyColumnsAreEliminatedInSteps) {
+  constexpr int landmarks = 60;
+  const Eigen::MatrixXd M = positive_definite(2 * landmarks, 9);
+  std::vector<int> slots(landmarks);
+  std::iota(slots.begin(), slots.end(), 0);
+  Condensed part = part_of(M, slots);
+  const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(2 * landmarks, -1.0, 3.0);
+  part.s.assign(r.begin(), r.end());
+  Front front;
+  front.begin();
+  front.add(part);
+  Condensed out;
+  front.divide([](int slot, int) { return slot % 20 != 0; }, out);
+  while (front.next_part() != nullptr) front.assemble_next({}, {});
+  int steps = 0;
+  for (; front.has_columns_left(); ++steps) {
+    const std::int64_t before = front.blocks_touched();
+    ASSERT_TRUE(front.eliminate_next());
+    EXPECT_LE(front.blocks_touched() - before, landmarks * (landmarks + 1) / 2);
+  }
+  EXPECT_EQ(steps, 3);
+  front.finish();
+  const Eigen::MatrixXd expected = schur_complement(M, {0, 20, 40});
+  EXPECT_LT((unpacked(out) - expected).norm(), part_rounding * expected.norm());
+  // Where nothing pulls at E, B is pulled by r_B - M_BE M_EE^-1 r_E.
+  const Eigen::VectorXd x = M.ldlt().solve(r);
+  Eigen::VectorXd s(6);
+  for (Eigen::Index i = 0; i < 3; ++i) s.segment<2>(2 * i) = x.segment<2>(40 * i);
+  s = (expected * s).eval();
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(out.s.data(), 6) - s).norm(), 1e-9 * s.norm());
 }
 
 /// A zone of eight landmarks, as a front leaves it.

@@ -187,6 +187,7 @@ TEST(LeafElement, IsCarriedToWhereItsLandmarksAre) {
         0.01 * Eigen::Vector2d(pieces.normal(pieces.random), pieces.normal(pieces.random));
     places.push_back({.before = before, .now = Eigen::Rotation2Dd(0.3) * before + strain});
   }
+  const Turning by_clusters{.near = 20.0};
   MovedBoundary moved;
   const auto residual_now = [&] {
     Eigen::VectorXd d(element.b), r(element.b);
@@ -196,15 +197,15 @@ TEST(LeafElement, IsCarriedToWhereItsLandmarksAre) {
     moved.bring_residual(r);
     return r;
   };
-  moved.fit(20.0, places);
+  moved.fit(by_clusters, places);
   const Eigen::VectorXd before = residual_now();
-  ElementMover().carry(moved, places, before, element);
+  ElementMover().carry(by_clusters, places, element);
   for (MovedPlace& place : places) place.before = place.now;
-  moved.fit(20.0, places);
+  moved.fit(by_clusters, places);
   EXPECT_LT((residual_now() - before).norm(), rounding * before.norm());
   // The same a second time, from elsewhere: the sum of two steps.
   for (MovedPlace& place : places) place.now = Eigen::Rotation2Dd(-0.7) * place.before;
-  moved.fit(20.0, places);
+  moved.fit(by_clusters, places);
   const Eigen::VectorXd turned = residual_now();
   for (Eigen::Index row = 0; row < element.b; row += 2)
     EXPECT_LT((turned.segment<2>(row) - Eigen::Rotation2Dd(-0.7) * before.segment<2>(row)).norm(),

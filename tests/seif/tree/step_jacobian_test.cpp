@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "seif/tree/condensed.hpp"
 #include "seif/tree/moved_boundary.hpp"
 
 namespace seif {
@@ -54,23 +55,26 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
     return {.before = p,
             .now = turned(p) + by,
             .turn = is_group ? 0.4 + GetParam().bend * normal() : 0.0,
-            .is_group = is_group};
+            .strain = is_group ? Eigen::Vector3d(0.01 * normal(), 0.0, -0.02) : Eigen::Vector3d(0, 0, 0),
+            .rows = is_group ? freedom(group_variable(0)) : 2};
   }
   void add(const MovedPlace& place) {
     rows_.push_back(size_);
-    size_ += place.is_group ? 3 : 2;
+    size_ += place.rows;
     places_.push_back(place);
   }
 
   /// d (n), in the frame of the body.
   Eigen::VectorXd steps(const std::vector<MovedPlace>& places) {
-    const BodyMotion motion = moved_.fit(part_near, places);
+    moved_.fit({.near = part_near}, places);
     Eigen::VectorXd d(size_);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      d.segment<2>(rows_[i]) = moved_.step(i);
-      if (places[i].is_group) d(rows_[i] + 2) = places[i].turn - motion.angle;
-    }
+    moved_.steps(places, d);
     return d;
+  }
+
+  static double& unknown(MovedPlace& place, int row) {
+    if (row < 2) return place.now(row);
+    return row == 2 ? place.turn : place.strain(row - 3);
   }
 
   /// T (n x n) by central differences.
@@ -78,10 +82,10 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
     Eigen::MatrixXd T(size_, size_);
     constexpr double h = 1e-5;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      for (int k = 0; k < (places_[i].is_group ? 3 : 2); ++k) {
+      for (int k = 0; k < places_[i].rows; ++k) {
         std::vector<MovedPlace> plus = places_, minus = places_;
-        (k == 2 ? plus[i].turn : plus[i].now(k)) += h;
-        (k == 2 ? minus[i].turn : minus[i].now(k)) -= h;
+        unknown(plus[i], k) += h;
+        unknown(minus[i], k) -= h;
         T.col(rows_[i] + k) = (steps(plus) - steps(minus)) / (2.0 * h);
       }
     }
@@ -94,7 +98,7 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       N.block<2, 2>(rows_[i], 0).setIdentity();
       N.block<2, 1>(rows_[i], 2) << -places_[i].now.y(), places_[i].now.x();
-      if (places_[i].is_group) N(rows_[i] + 2, 2) = 1.0;
+      if (places_[i].is_turned()) N(rows_[i] + 2, 2) = 1.0;
     }
     return N;
   }
@@ -105,7 +109,7 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       N.block<2, 2>(rows_[i], 0).setIdentity();
       N.block<2, 1>(rows_[i], 2) << -places_[i].before.y(), places_[i].before.x();
-      if (places_[i].is_group) N(rows_[i] + 2, 2) = 1.0;
+      if (places_[i].is_turned()) N(rows_[i] + 2, 2) = 1.0;
     }
     Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(size_, size_ + 3, [&] { return normal(); });
     A -= N * N.householderQr().solve(A);
@@ -135,7 +139,7 @@ TEST_P(OfABoundary, BringsTheResidualAsFiniteDifferencesDo) {
   r -=
       shifts * shifts.transpose() * r / static_cast<double>(places_.size());  // no part pulls all to one side
   const Eigen::VectorXd expected = differences().transpose() * r;
-  moved_.fit(part_near, places_);
+  moved_.fit({.near = part_near}, places_);
   Eigen::VectorXd brought = r;
   moved_.bring_residual(brought);
   EXPECT_LT((brought - expected).norm(), (GetParam().groups > 0 ? 1e-3 : 1e-7) * expected.norm());
@@ -143,7 +147,7 @@ TEST_P(OfABoundary, BringsTheResidualAsFiniteDifferencesDo) {
 
 TEST_P(OfABoundary, BringsTheMatrixAsTheResidual) {
   const Eigen::MatrixXd S = information();
-  moved_.fit(part_near, places_);
+  moved_.fit({.near = part_near}, places_);
   Eigen::MatrixXd brought = S;
   moved_.bring(brought);
   Eigen::MatrixXd T_transposed = Eigen::MatrixXd::Identity(size_, size_);
@@ -158,7 +162,7 @@ TEST_P(OfABoundary, BringsTheMatrixAsTheResidual) {
 
 TEST_P(OfABoundary, SaysNothingOfMovingAndTurningAllWhereItIs) {
   const Eigen::MatrixXd S = information();
-  moved_.fit(part_near, places_);
+  moved_.fit({.near = part_near}, places_);
   Eigen::MatrixXd brought = S;
   moved_.bring(brought);
   EXPECT_LT((brought * motions()).norm(), 1e-9 * S.norm());
@@ -200,7 +204,7 @@ TEST(StepJacobian, LeavesAChainAsSoftAsItWas) {
   Eigen::MatrixXd S = stiff * onto_strain.transpose() * onto_strain + soft * of_ends.transpose() * of_ends;
   const Eigen::MatrixXd before = rigid.transpose() * S * rigid;
   MovedBoundary moved;
-  moved.fit(part_near, places);
+  moved.fit({.near = part_near}, places);
   moved.bring(S);
   const Eigen::MatrixXd now = rigid_now.transpose() * S * rigid_now;
   EXPECT_LT((now - before).norm(), 1e-4 * before.norm());
