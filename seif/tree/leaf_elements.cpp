@@ -37,23 +37,24 @@ void LeafElements::mention(int slot, const Eigen::Vector2d& reference, int owner
   ++p.leaves;
 }
 
-/// The leaf of one of its members whose element mentions most of them already: so elements stay small.
+/// The leaf of one of its members whose element grows least: so elements stay small.
 int LeafElements::owner_of(const FrozenPiece& piece) {
   int best = none;
-  std::size_t least = 0;
+  std::int64_t least = 0;
   for (const FrozenPiece::Member& m : piece.members) {
     const int leaf = records_.landmark(m.slot).leaf;
     if (leaf == best || leaf == records_.held_leaf) continue;
     ++visit_;
-    for (const Condensed::Member& other : records_.node(leaf).own.boundary)
-      records_.landmark(other.variable).visit = visit_;
-    std::size_t missing = 0;
+    const std::vector<Condensed::Member>& boundary = records_.node(leaf).own.boundary;
+    for (const Condensed::Member& other : boundary) records_.landmark(other.variable).visit = visit_;
+    std::int64_t missing = 0;
     for (const FrozenPiece::Member& other : piece.members) {
       if (records_.landmark(other.slot).visit != visit_) ++missing;
     }
-    if (best != none && missing >= least) continue;
+    const std::int64_t growth = missing * (missing + 2 * static_cast<std::int64_t>(boundary.size()));
+    if (best != none && growth >= least) continue;
     best = leaf;
-    least = missing;
+    least = growth;
   }
   return best != none ? best : records_.held_leaf;
 }
