@@ -53,12 +53,11 @@ Broken broken_landmark(const CondensationRecords& records, int slot) {
 }
 
 Broken broken_message(const CondensationRecords& records, int i) {
-  const LeafTree& tree = records.tree;
   const Condensed& message = records.sent(i).message;
-  if (records.node(i).hot && i != tree.hub() && message.blocks() > 0)
+  if (records.node(i).hot && message.blocks() > 0)
     return broken("hot leaf ", i, " has a message");
-  int next = tree.towards(i);
-  while (next != CondensationRecords::none && records.sent(next).is_bare) next = tree.towards(next);
+  int next = records.receiver(i);
+  while (next != CondensationRecords::none && records.sent(next).is_bare) next = records.receiver(next);
   for (const Condensed::Member& m : message.boundary) {
     if (next != CondensationRecords::none && !takes_in(records.sent(next).message, m.variable))
       return broken("node ", next, " does not take in ", m.variable, " of node ", i);

@@ -44,8 +44,8 @@ struct LandmarkGroup {
   int unknowns = 0;    // [-] of these
 };
 
-/// The message of a node towards the hub; the hub's own goes to the zone. A bare node passes on the messages that
-/// it gets; a bare cold leaf sends its blocks of Omega unchanged.
+/// The message of a node or a ring. A bare one passes on the messages that it gets; a cold leaf sends its element
+/// unchanged.
 struct SentMessage {
   Condensed message;
   bool is_bare = true;
@@ -64,13 +64,17 @@ struct SentMessage {
 struct CondensationNode {
   static constexpr int none = -1;
 
-  SentMessage sent;                  // nothing while it is the hub: see CondensationRecords::sent()
+  SentMessage sent;                  // nothing while a leaf below it is hot
   int stale_in = 0;                  // number of the plan that has it send anew
   int planned = none;                // index among the messages of that plan
   mutable std::int64_t read_at = 0;  // epoch
   LandmarkGroup group;
   double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size
   int distance_known_in = 0;    // number of the plan that knows it
+
+  bool on_path = false;       // a leaf below it, or it, is hot
+  bool next_on_path = false;  // the same for the zone that is planned
+  int ring = 0, next_ring = 0;  // that it belongs to, if it is on the path
 
   // For leaves.
   Condensed own;              // its element (leaf_element.hpp); without what was frozen since the plan began

@@ -31,12 +31,14 @@ struct CondensationPlan {
   bool is_running = false;
   int number = 0;               // of all plans so far
   std::vector<int> hot_leaves;  // of the next zone
+  std::vector<int> path;        // of the next zone
+  int top_ring = 0;             // of the next zone
 
   // What is to be done.
-  std::vector<int> stale;     // nodes that send anew
-  std::vector<int> readings;  // the same, from the hub on: what was settled there is read
+  std::vector<int> stale;     // nodes and rings that send anew
+  std::vector<int> readings;  // the same, from the zone on: what was settled there is read
   std::vector<int> carried;   // hot leaves: their elements are taken where their landmarks are
-  std::vector<int> order;     // the stale nodes, each after those that it depends on: they send
+  std::vector<int> order;     // the stale ones, each after those that it depends on: they send; the zone is last
 
   // How far it is done. [-]
   std::size_t read = 0, carried_so_far = 0, ready = 0;

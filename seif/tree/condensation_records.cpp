@@ -2,6 +2,26 @@
 
 namespace seif {
 
+CondensationRecords::CondensationRecords(const CondensationOptions& options_, const Pose2& start)
+    : options(options_), tree(start) {
+  for (int r = 0; r < most_rings; ++r) {
+    tree.new_leaf();
+    nodes.push_back({});
+  }
+}
+
+int CondensationRecords::ring_of(int leaves) {
+  int ring = 0;
+  for (int size = most_bare; size < leaves && ring < most_rings - 1; size *= ring_ratio) ++ring;
+  return ring;
+}
+
+int CondensationRecords::receiver(int at) const {
+  if (is_ring(at)) return at - 1;
+  const int above = tree.parent(at);
+  return above != none && node(above).on_path ? node(above).ring : above;
+}
+
 void CondensationRecords::read_mean(FrontVariable v, Means means, double* to) const {
   const bool planned = means == Means::planned;
   if (is_group(v)) {
@@ -40,7 +60,7 @@ void CondensationRecords::list_places(const Condensed& part, Means means, std::v
 
 std::size_t CondensationRecords::memory_bytes() const {
   std::size_t bytes =
-      tree.memory_bytes() + nodes.memory_bytes() + landmarks.memory_bytes() + to_zone.message.memory_bytes();
+      tree.memory_bytes() + nodes.memory_bytes() + landmarks.memory_bytes();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     bytes += nodes[i].sent.message.memory_bytes() + nodes[i].own.memory_bytes() +
              nodes[i].sent.groups.capacity() * sizeof(int);

@@ -25,11 +25,18 @@ int CondensationTree::add_leaf(const Eigen::Vector2d& p_world) {
   return leaf;
 }
 
-/// By the middle of its box.
+/// By the middle of its box. An inner node that this adds passes on what comes to it.
 void CondensationTree::attach(int leaf) {
-  records_.tree.attach(leaf);
+  const int inner = records_.tree.attach(leaf);
   while (static_cast<int>(records_.nodes.size()) < records_.tree.size()) records_.nodes.push_back({});
   marking_.note_change(leaf);
+  if (inner == none) return;
+  const auto [a, b] = records_.tree.children(inner);
+  const CondensationNode& sibling = records_.node(a == leaf ? b : a);
+  if (!sibling.on_path) return;
+  records_.node(inner).on_path = true;
+  records_.node(inner).ring = sibling.ring;
+  records_.path.push_back(inner);
 }
 
 bool CondensationTree::has_room(int leaf) const {
@@ -215,7 +222,7 @@ void CondensationTree::read(const InformationState& state, int at) const {
   const CondensationNode& n = records_.node(at);
   if (n.read_at == epoch_) return;
   n.read_at = epoch_;
-  if (const int next = records_.tree.towards(at); next != none) {
+  if (const int next = records_.receiver(at); next != none) {
     read(state, next);
   } else {
     read_zone(state);

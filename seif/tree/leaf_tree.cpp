@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 
 namespace seif {
 namespace {
 
-constexpr int most_branches = 8;  // [-] that are begun in one rectangle
+constexpr int most_branches = 4;  // [-] that are begun in one rectangle
 constexpr double cell = 4.0;      // [m] finer places are not told apart
 constexpr double turn =
     0.46;  // [rad] of the grid: corridors that run along its lines would change sides often
@@ -68,12 +67,12 @@ int LeafTree::add_node() {
 
 int LeafTree::new_leaf() { return add_node(); }
 
-void LeafTree::attach(int leaf) {
+int LeafTree::attach(int leaf) {
   const std::uint64_t key = at(leaf).key = key_of(box(leaf).center(), leaf);
   at(leaf).leaves = 1;
   if (root_ == none) {
-    root_ = hub_ = leaf;
-    return;
+    root_ = leaf;
+    return none;
   }
   int sibling = root_;
   const auto differ_at = [&] { return static_cast<int>(std::bit_width(at(sibling).key ^ key)) - 1; };
@@ -91,14 +90,12 @@ void LeafTree::attach(int leaf) {
   at(inner).box = rectangle_of(key, bit);
   at(inner).child[side] = leaf;
   at(inner).child[1 - side] = sibling;
-  at(leaf).parent = at(leaf).towards = inner;
+  at(leaf).parent = inner;
   at(inner).leaves = at(sibling).leaves;
   at(inner).cover = cover(sibling);
   cover_above(leaf, box(leaf));
   for (int n = inner; n != none; n = at(n).parent) ++at(n).leaves;
-  for (const int n : {leaf, inner, sibling, at(inner).parent}) {
-    if (n != none) at(n).planned_towards = at(n).towards;
-  }
+  return inner;
 }
 
 /// A new node between a node and its parent, or above the root.
@@ -111,13 +108,6 @@ int LeafTree::insert_above(int below) {
     root_ = inner;
   } else {
     at(above).child[at(above).child[0] == below ? 0 : 1] = inner;
-  }
-  if (above != none && at(below).towards == above) {
-    at(below).towards = inner;
-    at(inner).towards = above;
-  } else {
-    if (above != none) at(above).towards = inner;
-    at(inner).towards = below;
   }
   return inner;
 }
@@ -142,38 +132,6 @@ void LeafTree::widen(int leaf, const Eigen::Vector2d& p_world) {
 void LeafTree::cover_above(int node, const Box& box) {
   for (int n = at(node).parent; n != none && !at(n).cover.contains(box); n = at(n).parent)
     at(n).cover.extend(box);
-}
-
-int LeafTree::common_ancestor(std::span<const int> leaves) {
-  assert(!leaves.empty());
-  ++mark_;
-  for (const int leaf : leaves) {
-    for (int n = leaf; n != none; n = at(n).parent) {
-      if (at(n).mark != mark_) at(n).marks = 0;
-      at(n).mark = mark_;
-      ++at(n).marks;
-    }
-  }
-  int n = leaves.front();
-  while (at(n).marks != static_cast<int>(leaves.size())) n = at(n).parent;
-  return n;
-}
-
-void LeafTree::plan_hub(int to) {
-  way_.clear();
-  for (int n = to; n != hub_; n = at(n).towards) way_.push_back(at(n).towards);
-  int next = to;  // the way was gone backwards
-  for (const int n : way_) {
-    at(n).planned_towards = next;
-    next = n;
-  }
-  at(to).planned_towards = none;
-  way_.push_back(to);
-}
-
-void LeafTree::move_hub() {
-  for (const int n : way_) at(n).towards = at(n).planned_towards;
-  hub_ = way_.back();
 }
 
 }  // namespace seif

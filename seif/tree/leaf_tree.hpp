@@ -1,5 +1,4 @@
-// A binary tree over the plane. Keys decide where its leaves are, and every node knows the way to one node, the
-// hub.
+// A binary tree over the plane. Keys decide where its leaves are.
 //
 //            tree             plane
 //             o              +-------+---+---+
@@ -15,14 +14,12 @@
 // A leaf in another half of a rectangle than the last leaf may begin a new branch there, above all older ones. So
 // landmarks that a robot passes in one drive stay together. In an area that it sweeps, fewer landmarks then lie on
 // the border of a branch than on that of a rectangle.
-//
-//   towards(n): the neighbour of n, parent or child, on its way to the hub.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "seif/chunked_array.hpp"
@@ -39,9 +36,9 @@ class LeafTree {
 
   /// Makes a leaf that is not in the tree yet and has no box; returns its node.
   int new_leaf();
-  /// Inserts a new leaf by the middle of its box. The first one is the hub. May also add an inner node between the
-  /// leaf and all others. Not between plan_hub() and move_hub().
-  void attach(int leaf);
+  /// Inserts a new leaf by the middle of its box. Returns the inner node that this adds between the leaf and all
+  /// others, or none.
+  int attach(int leaf);
 
   int size() const { return static_cast<int>(nodes_.size()); }
   bool is_leaf(int node) const { return at(node).child[0] == none; }
@@ -62,33 +59,8 @@ class LeafTree {
   Eigen::Vector2d centre(int node) const;
   void widen(int leaf, const Eigen::Vector2d& p_world);
 
-  int hub() const { return hub_; }
-  /// none for the hub.
-  int towards(int node) const { return at(node).towards; }
-  /// The same with the hub in its planned position.
-  int planned_towards(int node) const { return at(node).planned_towards; }
-
-  template <class Visit>
-  void for_each_neighbour(int node, Visit&& visit) const {
-    const Node& n = at(node);
-    for (const int neighbour : {n.child[0], n.child[1], n.parent}) {
-      if (neighbour != none) visit(neighbour);
-    }
-  }
-
-  /// Visits the neighbours of a node except the one on the way to the hub.
-  template <class Visit>
-  void for_each_source(int node, Visit&& visit) const {
-    for_each_neighbour(node, [&](int other) {
-      if (other != towards(node)) visit(other);
-    });
-  }
-  template <class Visit>
-  void for_each_planned_source(int node, Visit&& visit) const {
-    for_each_neighbour(node, [&](int other) {
-      if (other != planned_towards(node)) visit(other);
-    });
-  }
+  /// none for a leaf.
+  std::array<int, 2> children(int node) const { return {at(node).child[0], at(node).child[1]}; }
 
   /// Visits the leaves whose boxes come nearer to p_world than `distance` [m].
   template <class Visit>
@@ -108,28 +80,18 @@ class LeafTree {
     }
   }
 
-  /// The lowest node above all of these; at least one.
-  int common_ancestor(std::span<const int> leaves);
-
-  /// Plans which node becomes the hub; then moves the hub there.
-  void plan_hub(int to);
-  void move_hub();
-
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
   struct Node {
     int parent = none;
     int child[2] = {none, none};
-    int towards = none, planned_towards = none;
     Box box;
     Box cover;              // of an inner node
     std::uint64_t key = 0;  // of one of its leaves
     int bit = none;         // the highest in which its leaves differ
     int leaves = 0;         // [-] below it
     int branches = 0;       // [-] begun in its rectangle, so far down
-    int marks = 0;          // of the leaves that common_ancestor() has gone up from
-    int mark = 0;           // of which of its calls
   };
 
   Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
@@ -142,9 +104,6 @@ class LeafTree {
   Pose2 T_world_grid_;
   ChunkedArray<Node> nodes_;
   int root_ = none;
-  int hub_ = none;
-  int mark_ = 0;
-  std::vector<int> way_;   // nodes that lead elsewhere once the hub is where it is planned to be
   std::vector<int> near_;  // nodes yet to be looked at
 };
 

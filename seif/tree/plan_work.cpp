@@ -1,6 +1,27 @@
 #include "seif/tree/plan_work.hpp"
 
+#include <algorithm>
+
 namespace seif {
+
+/// Visits what will send to it.
+template <class Visit>
+void PlanWork::for_each_next_source(int at, Visit&& visit) const {
+  if (!CondensationRecords::is_ring(at)) {
+    if (records_.node(at).next_on_path) return;
+    for (const int child : records_.tree.children(at)) {
+      if (child != none) visit(child);
+    }
+    return;
+  }
+  if (at < plan_.top_ring) visit(at + 1);
+  for (const int n : plan_.path) {
+    if (records_.node(n).next_ring != at) continue;
+    for (const int child : records_.tree.children(n)) {
+      if (child != none && !records_.node(child).next_on_path) visit(child);
+    }
+  }
+}
 
 bool PlanWork::step(const InformationState& state) {
   if (plan_.read < plan_.readings.size()) {
@@ -38,13 +59,12 @@ void PlanWork::carry(int leaf) {
 
 void PlanWork::begin_message(const InformationState& state, int at) {
   SentMessage& next = current();
-  const bool is_hub = records_.tree.planned_towards(at) == none;
-  next.is_bare = !is_hub && records_.tree.leaves(at) <= CondensationRecords::most_bare;
+  next.is_bare = is_bare(at);
   ++blocks_touched_;
   if (next.is_bare) return begin_bare(at, next);
   front_.begin();
   gather(at);
-  if (is_hub) {
+  if (at == 0) {
     for (const int leaf : plan_.carried) front_.add(records_.node(leaf).own);
   }
   grouping_.tie_front(state, next);
@@ -52,10 +72,23 @@ void PlanWork::begin_message(const InformationState& state, int at) {
   is_in_front_ = true;
 }
 
+/// Where condensing would not pay: at small nodes, at those hardly larger than a child, and in rings to which only the
+/// next outer one sends.
+bool PlanWork::is_bare(int at) const {
+  if (at == 0) return false;
+  if (CondensationRecords::is_ring(at)) {
+    return std::ranges::none_of(plan_.path, [&](int n) { return records_.node(n).next_ring == at; });
+  }
+  if (records_.node(at).next_on_path) return true;
+  const auto size = [&](int n) { return CondensationRecords::ring_of(records_.tree.leaves(n)); };
+  const auto is_as_large = [&](int child) { return child != none && size(child) == size(at); };
+  return size(at) == 0 || std::ranges::any_of(records_.tree.children(at), is_as_large);
+}
+
 void PlanWork::begin_bare(int at, SentMessage& next) {
   next.message.clear();
   next.groups.clear();
-  if (records_.tree.is_leaf(at) && !records_.node(at).next_hot) {
+  if (!CondensationRecords::is_ring(at) && records_.tree.is_leaf(at) && !records_.node(at).next_hot) {
     for (Condensed::Member& m : records_.node(at).own.boundary) {
       const CondensedLandmark& p = records_.landmark(m.variable);
       m.balance = p.leaf == at ? 1 - p.leaves : 1;
@@ -65,13 +98,12 @@ void PlanWork::begin_bare(int at, SentMessage& next) {
   ++plan_.ready;
 }
 
-/// Brings to the front of a node what its sources send, or what comes through them. What is new is where the plan has
-/// it.
+/// Brings to the front what is sent to it, or what comes through bare ones. What is new is where the plan has it.
 void PlanWork::gather(int at) {
-  records_.tree.for_each_planned_source(at, [&](int source) {
+  for_each_next_source(at, [&](int source) {
     const SentMessage& next = next_of(source);
-    if (records_.tree.is_leaf(source)) {
-      if (!records_.node(source).next_hot) front_.add(records_.node(source).own, false);
+    if (!CondensationRecords::is_ring(source) && records_.tree.is_leaf(source)) {
+      front_.add(records_.node(source).own, false);
     } else if (next.is_bare) {
       gather(source);
     } else {
@@ -80,16 +112,16 @@ void PlanWork::gather(int at) {
   });
 }
 
-/// Whether all blocks of a variable are in the front of a node. At the hub those of all cold ones are.
+/// Whether all blocks of a variable are in the front. In the zone those of all cold ones are.
 bool PlanWork::is_complete(int at, FrontVariable v, int balance) const {
-  const LeafTree& tree = records_.tree;
   const bool is_cold = is_group(v) || !records_.node(records_.landmark(v).leaf).next_hot;
-  const int next = tree.planned_towards(at);
-  if (next == none || !is_cold) return is_cold;
+  if (at == 0 || !is_cold) return is_cold;
   if (balance != 0) return false;
   if (!is_group(v)) return true;
-  const bool comes_from_below = next == tree.parent(at);
-  return comes_from_below ? tree.is_within(~v, at) : !tree.is_within(~v, next) && !tree.is_within(next, ~v);
+  if (!CondensationRecords::is_ring(at)) return records_.tree.is_within(~v, at);
+  int n = ~v;
+  while (!records_.node(n).next_on_path) n = records_.tree.parent(n);
+  return records_.node(n).next_ring >= at;
 }
 
 /// From now on it holds for where the plan has its variables.
@@ -112,7 +144,7 @@ void PlanWork::finish_message() {
 
 void PlanWork::note_reach(int at, SentMessage& next) const {
   next.reach = grouping_.reach(next.groups);
-  records_.tree.for_each_planned_source(at, [&](int source) { next.reach.extend(next_of(source).reach); });
+  for_each_next_source(at, [&](int source) { next.reach.extend(next_of(source).reach); });
 }
 
 }  // namespace seif

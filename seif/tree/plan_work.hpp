@@ -32,7 +32,10 @@ class PlanWork {
   SentMessage& current() { return plan_.messages[plan_.ready]; }
   void carry(int leaf);
   void begin_message(const InformationState& state, int at);
+  bool is_bare(int at) const;
   void begin_bare(int at, SentMessage& next);
+  template <class Visit>
+  void for_each_next_source(int at, Visit&& visit) const;
   void gather(int at);
   bool is_complete(int at, FrontVariable v, int balance) const;
   void finish_message();

@@ -49,12 +49,17 @@ void ZoneSwitch::switch_leaves() {
   for (const int leaf : plan_.hot_leaves) records_.node(leaf).hot = true;
   records_.hot_leaves = plan_.hot_leaves;
   records_.hot_leaves.insert(records_.hot_leaves.end(), plan_.new_leaves.begin(), plan_.new_leaves.end());
-  records_.tree.move_hub();
+  for (const int n : records_.path) records_.node(n).on_path = records_.node(n).next_on_path;
+  for (const int n : plan_.path) {
+    records_.node(n).on_path = true;
+    records_.node(n).ring = records_.node(n).next_ring;
+  }
+  records_.path = plan_.path;
+  records_.top_ring = plan_.top_ring;
 }
 
 /// A node's message by the planned one.
 void ZoneSwitch::replace(int at) {
-  forget(records_.node(at).sent);
   SentMessage& now = records_.sent(at);
   forget(now);
   now.take(plan_.messages[static_cast<std::size_t>(records_.node(at).planned)]);
@@ -82,7 +87,7 @@ void ZoneSwitch::settle(FrontVariable v, int at) {
 
 /// What has come to the hub goes from where the plan had it to where its landmarks are now.
 void ZoneSwitch::load() {
-  Condensed& message = records_.to_zone.message;
+  Condensed& message = records_.sent(0).message;
   zone_.load(message);
   message.S.clear();  // the zone has it
   places_.clear();
