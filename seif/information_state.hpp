@@ -142,7 +142,7 @@ class InformationState {
   Eigen::MatrixXd work_;            // as large as Omega_
   Eigen::Matrix<double, Eigen::Dynamic, 3> work_columns_;
   Eigen::MatrixXd wide_columns_;  // twice as wide as Omega_
-  Eigen::MatrixXi link_of_;  // by two positions: the graph's link between them, or none (symmetric)
+  Eigen::MatrixXi link_of_;       // by two positions: the graph's link between them, or none (symmetric)
 
   InformationGraph graph_;
   LandmarkIndex index_;

@@ -53,7 +53,8 @@ void add_element(const CondensationTree& tree, const InformationState& state, co
 FrozenInformation CondensationTree::frozen_information(const InformationState& state) const {
   FrozenInformation all{.blocks = {}, .r = Eigen::VectorXd::Zero(Eigen::Index{2} * state.landmark_count())};
   for (std::size_t i = 0; i < records_.nodes.size(); ++i) {
-    if (records_.nodes[i].own.b > 0) add_element(*this, state, records_.turning(), records_.nodes[i].own, all);
+    if (records_.nodes[i].own.b > 0)
+      add_element(*this, state, records_.turning(), records_.nodes[i].own, all);
   }
   for (const FrozenPiece& piece : plan_.fresh.all()) {
     // A piece is an element.
@@ -70,7 +71,8 @@ FrozenInformation CondensationTree::frozen_information(const InformationState& s
   }
   for (std::size_t i = 0; i < held_.slots.size(); ++i) {
     const int slot = held_.slots[i];
-    append({slot}, held_.weight * Eigen::Matrix2d::Identity(), held_.weight * (held_.at[i] - mean(state, slot)), all);
+    append({slot}, held_.weight * Eigen::Matrix2d::Identity(),
+           held_.weight * (held_.at[i] - mean(state, slot)), all);
   }
   return all;
 }

@@ -54,8 +54,7 @@ Broken broken_landmark(const CondensationRecords& records, int slot) {
 
 Broken broken_message(const CondensationRecords& records, int i) {
   const Condensed& message = records.sent(i).message;
-  if (records.node(i).hot && message.blocks() > 0)
-    return broken("hot leaf ", i, " has a message");
+  if (records.node(i).hot && message.blocks() > 0) return broken("hot leaf ", i, " has a message");
   int next = records.receiver(i);
   while (next != CondensationRecords::none && records.sent(next).is_bare) next = records.receiver(next);
   for (const Condensed::Member& m : message.boundary) {

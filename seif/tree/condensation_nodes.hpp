@@ -32,12 +32,13 @@ struct CondensedLandmark {
 struct LandmarkGroup {
   static constexpr int none = -1;
 
-  CondensedLandmark::Point start = CondensedLandmark::Point::Zero();  // p_world of its middle when it began [m]
+  CondensedLandmark::Point start =
+      CondensedLandmark::Point::Zero();  // p_world of its middle when it began [m]
   int settled_at = none;
   GroupMotion mean = GroupMotion::Zero();             // all its motion so far, as above
   mutable GroupMotion read = GroupMotion::Zero();     // as above
   mutable GroupMotion planned = GroupMotion::Zero();  // as above
-  int fronts = 0;      // [-] that it is in
+  int fronts = 0;                                     // [-] that it is in
   int known_in = 0;    // number of the plan in which `planned` is known, or begun
   int present_in = 0;  // number of the front that it was last found in
   int wanted_by = 0;   // number of the count of variables that would be tied to it
@@ -72,8 +73,8 @@ struct CondensationNode {
   double distance_ratio = 0.0;  // [-] its distance from the next hot leaves over its size
   int distance_known_in = 0;    // number of the plan that knows it
 
-  bool on_path = false;       // a leaf below it, or it, is hot
-  bool next_on_path = false;  // the same for the zone that is planned
+  bool on_path = false;         // a leaf below it, or it, is hot
+  bool next_on_path = false;    // the same for the zone that is planned
   int ring = 0, next_ring = 0;  // that it belongs to, if it is on the path
 
   // For leaves.

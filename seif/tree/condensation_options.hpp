@@ -18,7 +18,7 @@ struct CondensationOptions {
   // In multiples of the range that the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 0.8;    // leaves so near to it are wanted in the zone,
-  double zone_ahead = 1.35;    // and those so near are taken into the next one
+  double zone_ahead = 1.35;   // and those so near are taken into the next one
 };
 
 }  // namespace seif

@@ -38,7 +38,7 @@ struct CondensationPlan {
   std::vector<int> stale;     // nodes and rings that send anew
   std::vector<int> readings;  // the same, from the zone on: what was settled there is read
   std::vector<int> carried;   // hot leaves: their elements are taken where their landmarks are
-  std::vector<int> order;     // the stale ones, each after those that it depends on: they send; the zone is last
+  std::vector<int> order;  // the stale ones, each after those that it depends on: they send; the zone is last
 
   // How far it is done. [-]
   std::size_t read = 0, carried_so_far = 0, ready = 0;

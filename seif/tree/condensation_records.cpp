@@ -38,16 +38,19 @@ Eigen::Vector2d CondensationRecords::place(FrontVariable v, const double* mean) 
   return is_group(v) ? Eigen::Vector2d(node(~v).group.start + p) : p;
 }
 
-MovedPlace CondensationRecords::moved_place(FrontVariable v, const double* reference, const double* mean) const {
+MovedPlace CondensationRecords::moved_place(FrontVariable v, const double* reference,
+                                            const double* mean) const {
   MovedPlace moved{.before = place(v, reference), .now = place(v, mean)};
   if (!is_group(v)) return moved;
   moved.rows = freedom(v);
   moved.turn = mean[2] - reference[2];
-  moved.strain = Eigen::Map<const Eigen::Vector3d>(mean + 3) - Eigen::Map<const Eigen::Vector3d>(reference + 3);
+  moved.strain =
+      Eigen::Map<const Eigen::Vector3d>(mean + 3) - Eigen::Map<const Eigen::Vector3d>(reference + 3);
   return moved;
 }
 
-void CondensationRecords::list_places(const Condensed& part, Means means, std::vector<MovedPlace>& places) const {
+void CondensationRecords::list_places(const Condensed& part, Means means,
+                                      std::vector<MovedPlace>& places) const {
   places.clear();
   GroupMotion mean;
   const double* reference = part.reference.data();
@@ -59,8 +62,7 @@ void CondensationRecords::list_places(const Condensed& part, Means means, std::v
 }
 
 std::size_t CondensationRecords::memory_bytes() const {
-  std::size_t bytes =
-      tree.memory_bytes() + nodes.memory_bytes() + landmarks.memory_bytes();
+  std::size_t bytes = tree.memory_bytes() + nodes.memory_bytes() + landmarks.memory_bytes();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     bytes += nodes[i].sent.message.memory_bytes() + nodes[i].own.memory_bytes() +
              nodes[i].sent.groups.capacity() * sizeof(int);

@@ -35,8 +35,8 @@ struct CondensationRecords {
   std::vector<int> hot_leaves;
   std::vector<int> path;  // hot leaves in the tree, and all nodes above them
   int top_ring = 0;       // the outermost one
-  int held_leaf = none;  // beside the tree; always hot
-  double view = 0.0;     // how far the robot sees [m]
+  int held_leaf = none;   // beside the tree; always hot
+  double view = 0.0;      // how far the robot sees [m]
 
   CondensedLandmark& landmark(int slot) { return landmarks[static_cast<std::size_t>(slot)]; }
   const CondensedLandmark& landmark(int slot) const { return landmarks[static_cast<std::size_t>(slot)]; }
@@ -45,7 +45,9 @@ struct CondensationRecords {
   SentMessage& sent(int at) { return node(at).sent; }
   const SentMessage& sent(int at) const { return node(at).sent; }
   int node_of(FrontVariable v) const { return is_group(v) ? ~v : landmark(v).leaf; }
-  int settled_at(FrontVariable v) const { return is_group(v) ? node(~v).group.settled_at : landmark(v).settled_at; }
+  int settled_at(FrontVariable v) const {
+    return is_group(v) ? node(~v).group.settled_at : landmark(v).settled_at;
+  }
   template <class Visit>
   void for_each_landmark(int leaf, Visit&& visit) const {
     for (int slot = node(leaf).first_landmark; slot != none; slot = landmark(slot).next) visit(slot);

@@ -92,7 +92,8 @@ void CondensationTree::hold(const InformationState& state, std::span<const int> 
 bool CondensationTree::activate(InformationState& state, std::vector<int>& slots, double range) {
   update_begun_at_ = blocks_touched() + state.blocks_touched();
   choice_.begin_scan(state, slots, range);
-  if (!plan_.is_running && choice_.choose(state, slots, zone_.size(), plan_.hot_leaves)) begin_plan(state, false);
+  if (!plan_.is_running && choice_.choose(state, slots, zone_.size(), plan_.hot_leaves))
+    begin_plan(state, false);
   if (records_.options.most_blocks == 0 && !finish_plan(state)) return false;
   waited_ += static_cast<std::int64_t>(std::erase_if(slots, [&](int slot) { return !is_ready(slot); }));
   zone_indices_.clear();
@@ -217,7 +218,7 @@ void CondensationTree::read_zone(const InformationState& state) const {
   for (int h = 0; h < zone_.size(); ++h) records_.landmark(zone_.slot(h)).read = zone_read_.segment<2>(2 * h);
 }
 
-/// What was settled at this node, and at all from there to the hub.
+/// What was settled at this node or ring, and at all from there to the zone.
 void CondensationTree::read(const InformationState& state, int at) const {
   const CondensationNode& n = records_.node(at);
   if (n.read_at == epoch_) return;

@@ -1,20 +1,16 @@
 // Recovers the mean. Information far from the robot is condensed along a tree, once; means there are computed when
-// they are read. docs: seif/tree/README.md has the picture and the invariants.
+// they are read. README.md here has the objects and the invariants, seif/README.md the reasons.
 //
-//           o            A leaf holds about four landmarks. The leaves around the robot are hot (*): the hub
-//        /     \         (HotZone) holds their landmarks. Every other node sends one message towards the hub:
-//      hub      o        the information behind the node, after elimination of the landmarks that have no
-//     /   \    / \       block with anything before it (Front). So a message changes only if a leaf behind
-//    0*   1*  2   3      it becomes hot or cold, or if the hub moves past it.
+//           o            A leaf holds about four landmarks. The leaves around the robot are hot (*): the zone
+//        /     \         (HotZone) holds their landmarks. A node without a hot leaf below it sends one message up:
+//      o         o       its information, after elimination of the landmarks that have no block with anything else
+//     /   \    / \       (Front). What comes to the path of the hot leaves is collected in rings around the zone.
+//    0*   1*  2   3
 //
 // Omega changes in the window alone, and the window is hot. So an update solves for robot and active landmarks
-// with Omega + S, where S is the information of hub and messages: the exact mean of the whole Omega. The other
+// with Omega + S, where S is the information of zone and messages: the exact mean of the whole Omega. The other
 // landmarks follow by back-substitution. Where a front would grow too large, landmarks far from the robot are
 // tied to groups that move as one body; their residuals are kept, and used when they are untied.
-//
-// Glossary: a leaf owns a block Omega_ij if it is the older of the leaves of i and j; it mentions the
-//           landmarks of its blocks. A landmark is complete where all leaves that mention it have met.
-//           It is settled where it is eliminated or tied. Stale: a message to be sent anew.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,11 +21,7 @@
 #include <vector>
 
 #include "seif/information_state.hpp"
-#include "seif/tree/condensation_plan.hpp"
-#include "seif/tree/condensation_records.hpp"
-#include "seif/tree/front.hpp"
-#include "seif/tree/grouping.hpp"
-#include "seif/tree/hot_zone.hpp"
+#include "seif/tree/frozen_information.hpp"
 #include "seif/tree/leaf_elements.hpp"
 #include "seif/tree/mean_reader.hpp"
 #include "seif/tree/plan_marking.hpp"
@@ -40,16 +32,6 @@
 #include "seif/window_factor.hpp"
 
 namespace seif {
-
-/// All that is frozen: blocks of pairs of landmarks, of which one pair may have several, and the residual (2N).
-struct FrozenInformation {
-  struct Block {
-    int slot, other;
-    Eigen::Matrix2d Omega;
-  };
-  std::vector<Block> blocks;
-  Eigen::VectorXd r;
-};
 
 /// The means of passive landmarks are those of mean(); the state holds old ones. At these means r is zero for all
 /// passive landmarks that are not tied to groups.

@@ -49,13 +49,9 @@ void Condensed::add_to_S(Eigen::Index row, Eigen::Index col, const Eigen::Matrix
   }
 }
 
-void Condensed::unpack(Eigen::Ref<Eigen::MatrixXd> full) const {
-  unpack_triangle(S.data(), full);
-}
+void Condensed::unpack(Eigen::Ref<Eigen::MatrixXd> full) const { unpack_triangle(S.data(), full); }
 
-void Condensed::pack(const Eigen::Ref<const Eigen::MatrixXd>& full) {
-  pack_triangle(full, S.data());
-}
+void Condensed::pack(const Eigen::Ref<const Eigen::MatrixXd>& full) { pack_triangle(full, S.data()); }
 
 std::size_t Condensed::memory_bytes() const {
   return boundary.capacity() * sizeof(Member) + eliminated.capacity() * sizeof(FrontVariable) +

@@ -225,7 +225,8 @@ void Front::finish() {
 std::size_t Front::memory_bytes() const {
   return pool_.memory_bytes() + rows_.memory_bytes() + variables_.capacity() * sizeof(Variable) +
          moved_.memory_bytes() +
-         sizeof(double) * static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size() + r_.size());
+         sizeof(double) *
+             static_cast<std::size_t>(of_B_.size() + half_.size() + transposed_.size() + r_.size());
 }
 
 }  // namespace seif

@@ -121,8 +121,8 @@ class Front {
   std::vector<int> moved_rows_, column_of_row_;
   Condensed* out_ = nullptr;
   int size_ = 0, e_ = 0, next_column_ = 0;  // rows in all, of E, and those that are done
-  double* of_E_ = nullptr;                  // (n x e) columns of the matrix: in the message that is being made
-  Eigen::VectorXd of_B_;                    // (b x b), with room to grow, as all below
+  double* of_E_ = nullptr;  // (n x e) columns of the matrix: in the message that is being made
+  Eigen::VectorXd of_B_;    // (b x b), with room to grow, as all below
   Eigen::VectorXd half_, transposed_;
   Eigen::VectorXd r_;
   std::int64_t blocks_touched_ = 0;

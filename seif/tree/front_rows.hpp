@@ -41,9 +41,9 @@ class FrontRows {
 
  private:
   struct Rows {
-    int front = 0;           // number of the front in which it was last
-    int index = 0;           // among its variables, until it has a row
-    int row = 0;             // of its group, if it is tied
+    int front = 0;            // number of the front in which it was last
+    int index = 0;            // among its variables, until it has a row
+    int row = 0;              // of its group, if it is tied
     const Lever* lever = {};  // if it is tied
   };
 

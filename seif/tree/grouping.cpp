@@ -110,7 +110,8 @@ int Grouping::count_unknowns(double ratio) {
 /// Where the plan has it. What does not turn stays where its Jacobians were taken. [m]
 Eigen::Vector2d Grouping::place(const InformationState& state, FrontVariable v) const {
   if (!is_group(v))
-    return records_.options.turns ? Eigen::Vector2d(records_.landmark(v).planned) : linearisation_point(state, v);
+    return records_.options.turns ? Eigen::Vector2d(records_.landmark(v).planned)
+                                  : linearisation_point(state, v);
   const LandmarkGroup& group = records_.node(~v).group;
   return records_.options.turns ? Eigen::Vector2d(group.start + group.planned.head<2>())
                                 : Eigen::Vector2d(group.start);

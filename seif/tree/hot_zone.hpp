@@ -1,4 +1,4 @@
-// The landmarks around the robot, with the information of all others about them: the hub of the tree.
+// The landmarks around the robot, with the information of all others about them: the innermost ring.
 //
 // F (2h x 2h) holds all frozen information about the zone's h landmarks: everything but that of the window
 // (InformationState). s (2h) is its residual where the means were last written down; of P it is zero.

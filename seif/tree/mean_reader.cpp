@@ -22,7 +22,8 @@ void MeanReader::read(int at, Means means) {
   }
   const bool turning = records_.options.turns;
   for (const Condensed::Tie& tie : message.tied)
-    set(tie.variable, means, tie.reference + tied_motion(tie.lever, step_.segment<6>(tie.row), turning), motion);
+    set(tie.variable, means, tie.reference + tied_motion(tie.lever, step_.segment<6>(tie.row), turning),
+        motion);
   blocks_touched_ += message.reading_blocks();
 }
 

@@ -34,9 +34,7 @@ const BodyMotion& MovedBoundary::fit(const Turning& turning, std::span<const Mov
   return fit();
 }
 
-Eigen::Vector2d MovedBoundary::step(std::size_t i) const {
-  return turning_ ? fit_.step(i) : plain_steps_[i];
-}
+Eigen::Vector2d MovedBoundary::step(std::size_t i) const { return turning_ ? fit_.step(i) : plain_steps_[i]; }
 
 void MovedBoundary::steps(std::span<const MovedPlace> places, Eigen::Ref<Eigen::VectorXd> d) const {
   Eigen::Index row = 0;

@@ -102,7 +102,8 @@ void PlanMarking::mark_expired(int at) {
   const bool changes = is_stale(at);
   const auto enters = [&](int leaf) { return now.reach.intersects(records_.tree.box(leaf)); };
   if (!changes && std::ranges::none_of(plan_.hot_leaves, enters)) return;
-  if (!changes && std::ranges::any_of(now.groups, [&](int g) { return grouping_.is_expired(g); })) mark_stale(at);
+  if (!changes && std::ranges::any_of(now.groups, [&](int g) { return grouping_.is_expired(g); }))
+    mark_stale(at);
   records_.for_each_source(at, [&](int source) { mark_expired(source); });
 }
 

@@ -45,7 +45,8 @@ bool PlanWork::step(const InformationState& state) {
 
 /// What a node will have sent once the zone has moved.
 const SentMessage& PlanWork::next_of(int at) const {
-  return is_stale(at) ? plan_.messages[static_cast<std::size_t>(records_.node(at).planned)] : records_.node(at).sent;
+  return is_stale(at) ? plan_.messages[static_cast<std::size_t>(records_.node(at).planned)]
+                      : records_.node(at).sent;
 }
 
 /// The element of a hot leaf is taken where its landmarks are, with what it pulls there.
@@ -129,7 +130,8 @@ void PlanWork::finish_message() {
   front_.finish();
   SentMessage& next = current();
   Condensed& message = next.message;
-  for (Condensed::Tie& tie : message.tied) records_.read_mean(tie.variable, Means::planned, tie.reference.data());
+  for (Condensed::Tie& tie : message.tied)
+    records_.read_mean(tie.variable, Means::planned, tie.reference.data());
   message.reference.resize(static_cast<std::size_t>(message.b));
   double* reference = message.reference.data();
   for (const Condensed::Member& m : message.boundary) {

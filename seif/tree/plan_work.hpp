@@ -17,7 +17,8 @@ namespace seif {
 
 class PlanWork {
  public:
-  PlanWork(CondensationRecords& records, CondensationPlan& plan, Front& front, Grouping& grouping, MeanReader& reader)
+  PlanWork(CondensationRecords& records, CondensationPlan& plan, Front& front, Grouping& grouping,
+           MeanReader& reader)
       : records_(records), plan_(plan), front_(front), grouping_(grouping), reader_(reader) {}
 
   /// One step, if the plan is not ready yet. False if a matrix is not positive definite.

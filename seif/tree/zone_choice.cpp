@@ -47,7 +47,8 @@ bool ZoneChoice::choose(const InformationState& state, std::span<const int> slot
   want_near(state, records_.options.look_ahead, chosen);
   const bool all_hot = std::ranges::all_of(chosen, [&](int leaf) { return records_.node(leaf).hot; });
   want_near(state, records_.options.zone_ahead, chosen);
-  const bool may_stay = all_hot && zone_size <= std::max(records_.options.most_hot, landmarks_ + landmarks_ / 2);
+  const bool may_stay =
+      all_hot && zone_size <= std::max(records_.options.most_hot, landmarks_ + landmarks_ / 2);
   if (!may_stay) add_last_used(chosen);
   for (const int leaf : chosen) records_.node(leaf).wanted = false;
   return !may_stay && !(all_hot && chosen.size() == records_.hot_leaves.size());
@@ -73,7 +74,8 @@ void ZoneChoice::want_near(const InformationState& state, double views, std::vec
 /// As long as there is room.
 void ZoneChoice::add_last_used(std::vector<int>& chosen) {
   std::ranges::sort(records_.hot_leaves, [&](int a, int b) {
-    return records_.node(a).used != records_.node(b).used ? records_.node(a).used > records_.node(b).used : a > b;
+    return records_.node(a).used != records_.node(b).used ? records_.node(a).used > records_.node(b).used
+                                                          : a > b;
   });
   for (const int leaf : records_.hot_leaves) {
     if (records_.node(leaf).wanted) continue;

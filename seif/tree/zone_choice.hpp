@@ -24,7 +24,8 @@ class ZoneChoice {
 
   /// Of a zone of so many landmarks. False if it may stay as it is. Otherwise `chosen` are the leaves of the landmarks
   /// that are active, seen or wanted, those near the robot, and those last used that still have room beside them.
-  bool choose(const InformationState& state, std::span<const int> slots, int zone_size, std::vector<int>& chosen);
+  bool choose(const InformationState& state, std::span<const int> slots, int zone_size,
+              std::vector<int>& chosen);
 
   /// From where a landmark is to its home. [m]
   const Eigen::Vector2d& home_offset() const { return homes_.offset(); }

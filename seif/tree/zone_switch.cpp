@@ -85,7 +85,7 @@ void ZoneSwitch::settle(FrontVariable v, int at) {
   }
 }
 
-/// What has come to the hub goes from where the plan had it to where its landmarks are now.
+/// What has come to ring 0 goes from where the plan had it to where its landmarks are now.
 void ZoneSwitch::load() {
   Condensed& message = records_.sent(0).message;
   zone_.load(message);

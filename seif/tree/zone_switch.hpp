@@ -1,5 +1,5 @@
 // The zone moves: the messages of a plan take the places of those before, and the zone begins anew with what has come
-// to the new hub and what was frozen since the plan began.
+// to its ring and what was frozen since the plan began.
 #pragma once
 
 #include <Eigen/Core>

@@ -235,7 +235,8 @@ TEST(Front, WhatIsTiedMovesAsItsGroup) {
   Condensed pair, all;
   front.begin();
   front.add(landmarks);
-  for (const std::size_t i : {0U, 1U}) front.tie(i, group_variable(10), {.arm = arms[i], .turn = turn_of_pair});
+  for (const std::size_t i : {0U, 1U})
+    front.tie(i, group_variable(10), {.arm = arms[i], .turn = turn_of_pair});
   ASSERT_TRUE(front.condense([](int, int) { return false; }, pair));
   front.begin();
   front.add(pair);
@@ -388,27 +389,29 @@ int add_leaf(LeafTree& tree, const Eigen::Vector2d& place) {
   return leaf;
 }
 
-/// Edges on the path from a node to the hub; one more than there are nodes if the path does not reach it.
-int steps_to_hub(const LeafTree& tree, int from) {
-  int steps = 0;
-  for (int n = from; n != tree.hub() && steps <= tree.size(); n = tree.towards(n)) ++steps;
-  return steps;
-}
-
-TEST(LeafTree, EveryWayLeadsToTheHubWhereverItMoves) {
+TEST(LeafTree, EachNodeIsAChildOfItsParent) {
   LeafTree tree{Pose2{}};
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
-  std::vector<int> leaves;
   for (int k = 0; k < 200; ++k) {
-    leaves.push_back(add_leaf(tree, {coordinate(random), coordinate(random)}));
-    const std::vector<int> some{leaves[random() % leaves.size()], leaves[random() % leaves.size()]};
-    tree.plan_hub(tree.common_ancestor(some));
-    tree.move_hub();
-    for (int n = 0; n < tree.size(); ++n) ASSERT_LE(steps_to_hub(tree, n), tree.size());
-    int sources = 0;
-    for (int n = 0; n < tree.size(); ++n) tree.for_each_source(n, [&](int) { ++sources; });
-    ASSERT_EQ(sources, tree.size() - 1);  // each node except the hub sends to one other node
+    const int leaf = tree.new_leaf();
+    tree.widen(leaf, {coordinate(random), coordinate(random)});
+    const int inner = tree.attach(leaf);
+    ASSERT_EQ(inner == LeafTree::none, k == 0);
+    ASSERT_EQ(tree.parent(leaf), inner);
+    int roots = 0;
+    for (int n = 0; n < tree.size(); ++n) {
+      const int above = tree.parent(n);
+      if (above == LeafTree::none) {
+        ++roots;
+        ASSERT_EQ(tree.leaves(n), k + 1);
+      } else {
+        const auto [a, b] = tree.children(above);
+        ASSERT_TRUE(a == n || b == n);
+        ASSERT_EQ(tree.leaves(above), tree.leaves(a) + tree.leaves(b));
+      }
+    }
+    ASSERT_EQ(roots, 1);
   }
 }
 
@@ -463,9 +466,9 @@ TEST(LeafTree, FindsALeafThatReachesFarOutOfItsRectangle) {
   LeafTree tree{Pose2{}};
   const std::vector<int> leaves = scatter_leaves(tree);
   const auto is_found = [&](int leaf, const Eigen::Vector2d& p) {
-    bool is_found = false;
-    tree.for_each_leaf_near(p, 1.0, [&](int near) { is_found = is_found || near == leaf; });
-    return is_found;
+    bool found = false;
+    tree.for_each_leaf_near(p, 1.0, [&](int near) { found = found || near == leaf; });
+    return found;
   };
   int i = 0;
   for (const int leaf : leaves) {  // each to another place
@@ -501,7 +504,7 @@ TEST(LeafTree, HoldsAnyNumberOfLeavesAtOnePlace) {
   std::vector<int> leaves;
   for (int k = 0; k < 50; ++k) leaves.push_back(add_leaf(tree, {1.0, 2.0}));
   EXPECT_EQ(tree.size(), 99);
-  EXPECT_FALSE(tree.is_leaf(tree.common_ancestor(leaves)));
+  for (const int leaf : leaves) EXPECT_FALSE(tree.is_leaf(tree.parent(leaf)));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <cmath>
+#include <deque>
 #include <numbers>
 #include <optional>
 #include <vector>
