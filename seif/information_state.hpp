@@ -7,12 +7,10 @@
 //
 // Robot and active landmarks (those with a link to the robot) are the window. Its matrix is dense, and no step
 // changes anything outside it. The rest is a graph of 2 x 2 blocks, each stored once.
-// The state keeps the residual r = xi - Omega mu instead of xi. So no large numbers cancel, and moving the mean by
-// d is exact: r -= Omega d.
+// The state keeps r = xi - Omega mu instead of xi: no large numbers cancel, and moving the mean by d is exact.
 #pragma once
 
 #include <Eigen/Core>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -43,12 +41,9 @@ class InformationState {
   auto r() const { return r_.head(window_size()); }
 
   /// Scratch memory for a step, as large as the window, so that no step allocates.
-  auto work() { return work_.topLeftCorner(window_size(), window_size()); }  // (w x w)
-  auto work_columns() { return work_columns_.topRows(window_size()); }       // (w x 3)
-  auto work_columns(int n) {                                                 // (w x n), n <= 2w
-    assert(n <= 2 * window_size());
-    return wide_columns_.topLeftCorner(window_size(), n);
-  }
+  auto work() { return work_.topLeftCorner(window_size(), window_size()); }           // (w x w)
+  auto work_columns() { return work_columns_.topRows(window_size()); }                // (w x 3)
+  auto work_columns(int n) { return wide_columns_.topLeftCorner(window_size(), n); }  // (w x n), n <= 2w
 
   Pose2 pose() const { return {mu_(0), mu_(1), mu_(2)}; }
   void set_pose(const Pose2& pose) { mu_.head<3>() << pose.x, pose.y, pose.theta; }  // the caller updates r
@@ -80,7 +75,7 @@ class InformationState {
   void keep_frozen_apart() { keeps_frozen_apart_ = true; }
   bool keeps_frozen_apart() const { return keeps_frozen_apart_; }
 
-  /// Adds a passive landmark without information and links: nothing is known of it yet. Returns its slot.
+  /// Adds a passive landmark of which nothing is known yet. Returns its slot.
   int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean);
 
   /// Takes a passive landmark into the window; returns its position there.
@@ -136,13 +131,12 @@ class InformationState {
   void reserve_window(int active_landmarks);
   void note_residual(Landmark& landmark);
 
-  std::vector<int> active_;         // slots, by position
-  Eigen::MatrixXd Omega_, frozen_;  // window, with room to grow
-  Eigen::VectorXd mu_, r_;          // window
-  Eigen::MatrixXd work_;            // as large as Omega_
+  std::vector<int> active_;              // slots, by position
+  Eigen::MatrixXd Omega_, frozen_;       // window, with room to grow
+  Eigen::VectorXd mu_, r_;               // window
+  Eigen::MatrixXd work_, wide_columns_;  // as large as Omega_, and twice as wide
   Eigen::Matrix<double, Eigen::Dynamic, 3> work_columns_;
-  Eigen::MatrixXd wide_columns_;  // twice as wide as Omega_
-  Eigen::MatrixXi link_of_;       // by two positions: the graph's link between them, or none (symmetric)
+  Eigen::MatrixXi link_of_;  // by two positions: the graph's link between them, or none (symmetric)
 
   InformationGraph graph_;
   LandmarkIndex index_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cstdint>
 
 #include "allocation_counter.hpp"
@@ -38,7 +40,7 @@ TEST(Seif, TouchesNearlyAsManyBlocksInALargeMapAsInASmallOne) {
   }
 }
 
-// By the tree in constant time, as the whole belief has it: also after the sparsifications of the drive.
+/// By the tree in constant time, as the whole belief has it: also after the sparsifications of the drive.
 /// With frames that turn, the zone has them where its landmarks were when it moved. The marginals have them where they
 /// are now.
 TEST(Seif, KnowsTheCovarianceOfItsPoseAfterAScan) {
@@ -46,6 +48,7 @@ TEST(Seif, KnowsTheCovarianceOfItsPoseAfterAScan) {
     RingDrive drive(60, 5);
     SeifOptions options;
     options.tree.turns = turns;
+    options.tree.most_unknowns = 1'000'000;  // no groups
     Seif filter(drive.setup(), options);
     EXPECT_FALSE(filter.pose_covariance());
     for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) {
@@ -59,6 +62,25 @@ TEST(Seif, KnowsTheCovarianceOfItsPoseAfterAScan) {
     filter.motion_update(drive.odometry());
     EXPECT_FALSE(filter.pose_covariance()) << "a motion was taken in since";
   }
+}
+
+/// Tying landmarks together leaves fewer unknowns: the covariance can only become smaller, and it must not by much.
+TEST(Seif, GroupsHardlyChangeTheCovarianceOfThePose) {
+  RingDrive drive(60, 5);
+  SeifOptions options;
+  options.tree.turns = false;
+  Seif filter(drive.setup(), options);
+  double largest = 0.0;  // change, relative
+  for (int k = 0; k < 2 * drive.steps_for_a_round(); ++k) {
+    drive.step(filter);
+    const Eigen::Matrix3d P = filter.pose_covariance().value();
+    const Eigen::Matrix3d expected = filter.marginal_covariances({})->pose;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> smaller_by(expected - P);
+    ASSERT_GT(smaller_by.eigenvalues()(0), -1e-6 * expected.norm()) << "step " << k;
+    largest = std::max(largest, (P - expected).norm() / expected.norm());
+  }
+  EXPECT_GT(largest, 1e-7);  // otherwise there were no groups
+  EXPECT_LT(largest, 1e-3);
 }
 
 // Holds for every mean recovery.
