@@ -63,6 +63,7 @@ void CondensationTree::join(const InformationState& state, int slot) {
   const int leaf = leaf_for(state.mean(slot), home);
   records_.landmarks.push_back({.leaf = leaf, .next = records_.node(leaf).first_landmark, .home = home});
   records_.landmark(slot).zone_index = zone_.add(slot, state.mean(slot));
+  records_.landmark(slot).planned = state.mean(slot);
   records_.node(leaf).first_landmark = slot;
   records_.tree.widen(leaf, home);
   ++records_.node(leaf).landmarks;
@@ -195,7 +196,12 @@ std::int64_t CondensationTree::blocks_left(const InformationState& state) const 
 }
 
 bool CondensationTree::end_update(InformationState& state) {
-  if (!plan_.is_running || records_.options.most_blocks == 0) return true;
+  if (records_.options.most_blocks == 0) return true;
+  if (!plan_.is_running && records_.options.turns && choice_.is_bent(state)) {
+    plan_.hot_leaves = records_.hot_leaves;
+    begin_plan(state, false);
+  }
+  if (!plan_.is_running) return true;
   ++plan_.updates;
   const std::int64_t until = blocks_touched() + blocks_left(state);
   while (!plan_.is_ready() && blocks_touched() < until) {

@@ -54,6 +54,19 @@ bool ZoneChoice::choose(const InformationState& state, std::span<const int> slot
   return !may_stay && !(all_hot && chosen.size() == records_.hot_leaves.size());
 }
 
+bool ZoneChoice::is_bent(const InformationState& state) {
+  constexpr double most = 0.05;  // of the view
+  places_.clear();
+  for (int p = 0; p < state.active_count(); ++p) {
+    const int slot = state.active(p);
+    places_.push_back({.before = records_.landmark(slot).planned, .now = state.mean(slot)});
+  }
+  boundary_.fit(records_.turning(), places_);
+  double longest = 0.0;
+  for (std::size_t i = 0; i < places_.size(); ++i) longest = std::max(longest, boundary_.step(i).norm());
+  return longest > most * records_.view;
+}
+
 void ZoneChoice::want_leaf(int leaf, std::vector<int>& chosen) {
   if (records_.node(leaf).wanted || leaf == records_.held_leaf) return;
   records_.node(leaf).wanted = true;

@@ -8,6 +8,7 @@
 #include "seif/information_state.hpp"
 #include "seif/tree/condensation_records.hpp"
 #include "seif/tree/homes.hpp"
+#include "seif/tree/moved_boundary.hpp"
 
 namespace seif {
 
@@ -27,6 +28,10 @@ class ZoneChoice {
   bool choose(const InformationState& state, std::span<const int> slots, int zone_size,
               std::vector<int>& chosen);
 
+  /// Whether active landmarks have moved so far against one another since the latest plan began that messages must
+  /// be turned anew: a round has closed.
+  bool is_bent(const InformationState& state);
+
   /// From where a landmark is to its home. [m]
   const Eigen::Vector2d& home_offset() const { return homes_.offset(); }
   /// Updates in which the robot comes to see what has called for the next zone. [-]
@@ -41,6 +46,8 @@ class ZoneChoice {
 
   CondensationRecords& records_;
   Homes homes_;
+  MovedBoundary boundary_;
+  std::vector<MovedPlace> places_;
   std::vector<int> wanted_;  // slots
   int scan_ = 0;
   int landmarks_ = 0;    // [-] of the leaves that are chosen
