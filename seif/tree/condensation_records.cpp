@@ -44,8 +44,7 @@ MovedPlace CondensationRecords::moved_place(FrontVariable v, const double* refer
   if (!is_group(v)) return moved;
   moved.rows = freedom(v);
   moved.turn = mean[2] - reference[2];
-  moved.strain =
-      Eigen::Map<const Eigen::Vector3d>(mean + 3) - Eigen::Map<const Eigen::Vector3d>(reference + 3);
+  moved.dilation = mean[3] - reference[3];
   return moved;
 }
 

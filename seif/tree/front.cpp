@@ -19,7 +19,7 @@ void Front::begin() {
 std::size_t Front::index_of(FrontVariable v) {
   const auto next = static_cast<int>(variables_.size());
   const int index = rows_.index_of(v, next);
-  if (index == next) variables_.push_back({.variable = v, .balance = 0, .group = v, .lever = {}});
+  if (index == next) variables_.push_back({.variable = v, .balance = 0, .group = v, .lever = Lever::Zero()});
   return static_cast<std::size_t>(index);
 }
 
@@ -60,10 +60,10 @@ void Front::begin_matrix(Condensed& out) {
   of_B_.head(entries).setZero();
   make_room(r_, size_);
   r_.head(size_).setZero();
-  constexpr double strain_sd = 0.05;  // [-] far more than a closure strains
+  constexpr double dilation_sd = 0.05;  // [-] far more than a closure stretches
   for (const FrontVariable group : damped_) {
-    for (int k = 3; k < freedom(group); ++k)
-      entry(rows_.row_of(group) + k, rows_.row_of(group) + k) += 1.0 / (strain_sd * strain_sd);
+    const int row = rows_.row_of(group) + 3;
+    entry(row, row) += 1.0 / (dilation_sd * dilation_sd);
   }
 }
 

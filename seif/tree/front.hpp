@@ -54,7 +54,7 @@ class Front {
   const std::vector<Variable>& variables() const { return variables_; }
   /// Ties a variable to a group, which is added to the front if it is missing.
   void tie(std::size_t index, FrontVariable group, const Lever& lever);
-  /// A group that begins here resists strain a little, so that few members, or members on a line, determine it.
+  /// A group that begins here resists dilation a little, so that few members, or members on a line, determine it.
   void damp(FrontVariable group) { damped_.push_back(group); }
 
   /// Eliminates all variables for which is_complete(variable, balance) holds. `out` may not be one that was added, and

@@ -58,22 +58,14 @@ void FrontRows::add_untied(FrontVariable v, int row) {
   }
 }
 
-/// By the rows [x, y, phi, dilation, two shears] of its group.
+/// By the rows [x, y, phi, dilation] of its group.
 void FrontRows::add_tied(FrontVariable v, const Rows& p) {
-  const Eigen::Matrix<double, 2, 3> strain = strain_columns(*p.lever);
-  const Eigen::Vector2d tangent(-p.lever->arm.y(), p.lever->arm.x());
-  for (int k = 0; k < 2; ++k) {
-    add_row(std::array<Term, 5>{{{p.row + k, 1.0},
-                                 {p.row + 2, tangent(k)},
-                                 {p.row + 3, strain(k, 0)},
-                                 {p.row + 4, strain(k, 1)},
-                                 {p.row + 5, strain(k, 2)}}});
-  }
-  if (!is_group(v)) return;
-  const Eigen::Matrix2d shears = shears_of_tied(*p.lever);
-  for (int k = 2; k < 4; ++k) add_row(std::array<Term, 1>{{{p.row + k, 1.0}}});
+  const Lever& lever = *p.lever;
+  const Eigen::Vector2d tangent(-lever.y(), lever.x());
   for (int k = 0; k < 2; ++k)
-    add_row(std::array<Term, 2>{{{p.row + 4, shears(k, 0)}, {p.row + 5, shears(k, 1)}}});
+    add_row(std::array<Term, 3>{{{p.row + k, 1.0}, {p.row + 2, tangent(k)}, {p.row + 3, lever(k)}}});
+  if (!is_group(v)) return;
+  for (int k = 2; k < 4; ++k) add_row(std::array<Term, 1>{{{p.row + k, 1.0}}});
 }
 
 }  // namespace seif

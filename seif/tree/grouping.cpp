@@ -117,11 +117,6 @@ Eigen::Vector2d Grouping::place(const InformationState& state, FrontVariable v) 
                                 : Eigen::Vector2d(group.start);
 }
 
-/// [rad]
-double Grouping::turn(FrontVariable v) const {
-  return is_group(v) && records_.options.turns ? records_.node(~v).group.planned(2) : 0.0;
-}
-
 /// In the middle of the variables that will be tied to it.
 void Grouping::begin_group(const InformationState& state, int target) {
   LandmarkGroup& group = records_.node(target).group;
@@ -150,7 +145,7 @@ void Grouping::tie(const InformationState& state, std::size_t index, std::vector
     front_.damp(g);
   }
   const FrontVariable v = front_.variables()[index].variable;
-  front_.tie(index, g, {.arm = place(state, v) - place(state, g), .turn = turn(g), .own_turn = turn(v)});
+  front_.tie(index, g, place(state, v) - place(state, g));
 }
 
 LeafTree::Box Grouping::reach(const std::vector<int>& groups) const {

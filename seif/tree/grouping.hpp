@@ -36,7 +36,6 @@ class Grouping {
   void list_targets(double ratio);
   int count_unknowns(double ratio);
   Eigen::Vector2d place(const InformationState& state, FrontVariable v) const;
-  double turn(FrontVariable v) const;
   void begin_group(const InformationState& state, int target);
   void tie(const InformationState& state, std::size_t index, std::vector<int>& groups);
 

@@ -13,7 +13,7 @@ void MeanReader::read(int at, Means means) {
   Eigen::Index row = 0;
   for (const FrontVariable v : message.eliminated) {
     if (is_group(v)) {
-      mean = records_.node(~v).group.mean + step_.segment<6>(row);
+      mean = records_.node(~v).group.mean + step_.segment<4>(row);
     } else {
       mean.head<2>() = records_.landmark(v).mean + step_.segment<2>(row);
     }
@@ -22,7 +22,7 @@ void MeanReader::read(int at, Means means) {
   }
   const bool turning = records_.options.turns;
   for (const Condensed::Tie& tie : message.tied)
-    set(tie.variable, means, tie.reference + tied_motion(tie.lever, step_.segment<6>(tie.row), turning),
+    set(tie.variable, means, tie.reference + tied_motion(tie.lever, step_.segment<4>(tie.row), turning),
         motion);
   blocks_touched_ += message.reading_blocks();
 }

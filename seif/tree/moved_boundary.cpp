@@ -41,7 +41,7 @@ void MovedBoundary::steps(std::span<const MovedPlace> places, Eigen::Ref<Eigen::
   for (std::size_t i = 0; i < places.size(); ++i) {
     d.segment<2>(row) = step(i);
     if (places[i].is_turned()) d(row + 2) = places[i].turn - motion_.angle;
-    if (places[i].rows > 3) d.segment<3>(row + 3) = places[i].strain;
+    if (places[i].rows > 3) d(row + 3) = places[i].dilation;
     row += places[i].rows;
   }
 }

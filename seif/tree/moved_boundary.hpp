@@ -14,10 +14,10 @@ namespace seif {
 
 /// Where a variable of a boundary was and is: a landmark, or the middle of a group.
 struct MovedPlace {
-  Eigen::Vector2d before, now;                       // p_world [m]
-  double turn = 0.0;                                 // of a group, or of the robot [rad]
-  Eigen::Vector3d strain = Eigen::Vector3d::Zero();  // of a group [-]
-  int rows = 2;                                      // 3 of the robot, 6 of a group: [x, y, turn, strain]
+  Eigen::Vector2d before, now;  // p_world [m]
+  double turn = 0.0;            // of a group, or of the robot [rad]
+  double dilation = 0.0;        // of a group [-]
+  int rows = 2;                 // 3 of the robot, 4 of a group: [x, y, turn, dilation]
 
   bool is_turned() const { return rows > 2; }
 };

@@ -163,21 +163,14 @@ TEST(Front, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(front.condense([](int, int) { return true; }, out));
 }
 
-/// How landmarks move with a group: [x, y, phi, dilation, two shears] in axes turned by `turn`. (2n x 6)
-Eigen::MatrixXd motion_of_group(const std::vector<Eigen::Vector2d>& arms, double turn) {
-  const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
-  const Eigen::Matrix2d dilation = Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d stretch{{1.0, 0.0}, {0.0, -1.0}};
-  const Eigen::Matrix2d shear{{0.0, 1.0}, {1.0, 0.0}};
-  const Eigen::Matrix2d quarter{{0.0, -1.0}, {1.0, 0.0}};
-  Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(arms.size()), 6);
-  for (std::size_t i = 0; i < arms.size(); ++i) {
+/// How landmarks move with a group: [x, y, phi, dilation]. (2n x 4)
+Eigen::MatrixXd motion_of_group(const std::vector<Eigen::Vector2d>& levers) {
+  Eigen::MatrixXd P(2 * static_cast<Eigen::Index>(levers.size()), 4);
+  for (std::size_t i = 0; i < levers.size(); ++i) {
     auto rows = P.middleRows<2>(static_cast<Eigen::Index>(2 * i));
     rows.leftCols<2>().setIdentity();
-    rows.col(2) = quarter * arms[i];
-    rows.col(3) = R * dilation * R.transpose() * arms[i];
-    rows.col(4) = R * stretch * R.transpose() * arms[i];
-    rows.col(5) = R * shear * R.transpose() * arms[i];
+    rows.col(2) = Eigen::Vector2d(-levers[i].y(), levers[i].x());
+    rows.col(3) = levers[i];
   }
   return P;
 }
@@ -208,8 +201,8 @@ TEST(Front, PartsAreTiedInEitherForm) {
     Condensed out;
     front.begin();
     front.add(taken_in);
-    front.tie(0, group_variable(10), {.arm = {1.0, 2.0}});
-    front.tie(2, group_variable(10), {.arm = {-3.0, 0.5}});
+    front.tie(0, group_variable(10), {1.0, 2.0});
+    front.tie(2, group_variable(10), {-3.0, 0.5});
     EXPECT_TRUE(front.condense([](int v, int) { return v == 1; }, out));
     return out;
   };
@@ -220,14 +213,11 @@ TEST(Front, PartsAreTiedInEitherForm) {
     EXPECT_NEAR(by_blocks.S[i], by_columns.S[i], part_rounding * M.norm());
 }
 
-// Four landmarks. Three of them move as one: first two of the three are tied, then all three. The axes of the two
-// groups are turned differently.
+// Four landmarks. Three of them move as one: first two of the three are tied, then all three.
 TEST(Front, WhatIsTiedMovesAsItsGroup) {
   const Eigen::MatrixXd M = positive_definite(8, 5);
-  const std::vector<Eigen::Vector2d> arms{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
+  const std::vector<Eigen::Vector2d> levers{{1.0, 2.0}, {-3.0, 0.5}, {4.0, -1.0}};
   const Eigen::Vector2d centre(7.0, -2.0);  // of the larger group; the smaller one's is the origin
-  constexpr double turn = 0.3;
-  constexpr double turn_of_pair = -0.5;
   Front front;
   const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(8, -1.0, 2.5);
   Condensed landmarks = part_of(M, {0, 1, 2, 3});
@@ -235,32 +225,30 @@ TEST(Front, WhatIsTiedMovesAsItsGroup) {
   Condensed pair, all;
   front.begin();
   front.add(landmarks);
-  for (const std::size_t i : {0U, 1U})
-    front.tie(i, group_variable(10), {.arm = arms[i], .turn = turn_of_pair});
+  for (const std::size_t i : {0U, 1U}) front.tie(i, group_variable(10), levers[i]);
   ASSERT_TRUE(front.condense([](int, int) { return false; }, pair));
   front.begin();
   front.add(pair);
   for (std::size_t i = 0; i < front.variables().size() && i < 4; ++i) {
     const FrontVariable v = front.variables()[i].variable;
-    if (v == 2) front.tie(i, group_variable(11), {.arm = arms[2] - centre, .turn = turn});
-    if (v == group_variable(10))
-      front.tie(i, group_variable(11), {.arm = -centre, .turn = turn, .own_turn = turn_of_pair});
+    if (v == 2) front.tie(i, group_variable(11), levers[2] - centre);
+    if (v == group_variable(10)) front.tie(i, group_variable(11), -centre);
   }
   ASSERT_TRUE(front.condense([](int v, int) { return v == 3; }, all));
 
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(8, 8);
-  P.topLeftCorner(6, 6) = motion_of_group({arms[0] - centre, arms[1] - centre, arms[2] - centre}, turn);
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(8, 6);
+  P.topLeftCorner(6, 4) = motion_of_group({levers[0] - centre, levers[1] - centre, levers[2] - centre});
   P.bottomRightCorner<2, 2>().setIdentity();
   const Eigen::MatrixXd tied = P.transpose() * M * P;
-  const Eigen::MatrixXd by_last = tied.topRightCorner(6, 2) * tied.bottomRightCorner<2, 2>().inverse();
-  const Eigen::MatrixXd expected = tied.topLeftCorner(6, 6) - by_last * tied.bottomLeftCorner(2, 6);
-  ASSERT_EQ(all.b, 6);
-  Eigen::MatrixXd S(6, 6);
+  const Eigen::MatrixXd by_last = tied.topRightCorner(4, 2) * tied.bottomRightCorner<2, 2>().inverse();
+  const Eigen::MatrixXd expected = tied.topLeftCorner(4, 4) - by_last * tied.bottomLeftCorner(2, 4);
+  ASSERT_EQ(all.b, 4);
+  Eigen::MatrixXd S(4, 4);
   all.unpack(S);
   EXPECT_LT((S - expected).norm(), part_rounding * expected.norm());
   const Eigen::VectorXd r_tied = P.transpose() * r;
-  const Eigen::VectorXd s = r_tied.head<6>() - by_last * r_tied.tail<2>();
-  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(all.s.data(), 6) - s).norm(), part_rounding * s.norm());
+  const Eigen::VectorXd s = r_tied.head<4>() - by_last * r_tied.tail<2>();
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(all.s.data(), 4) - s).norm(), part_rounding * s.norm());
 }
 
 TEST(Front, AGroupThatBeginsResistsStrainALittle) {

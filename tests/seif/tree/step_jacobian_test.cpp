@@ -55,7 +55,7 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
     return {.before = p,
             .now = turned(p) + by,
             .turn = is_group ? 0.4 + GetParam().bend * normal() : 0.0,
-            .strain = is_group ? Eigen::Vector3d(0.01 * normal(), 0.0, -0.02) : Eigen::Vector3d(0, 0, 0),
+            .dilation = is_group ? 0.01 * normal() : 0.0,
             .rows = is_group ? freedom(group_variable(0)) : 2};
   }
   void add(const MovedPlace& place) {
@@ -74,7 +74,7 @@ class OfABoundary : public testing::TestWithParam<Boundary> {
 
   static double& unknown(MovedPlace& place, int row) {
     if (row < 2) return place.now(row);
-    return row == 2 ? place.turn : place.strain(row - 3);
+    return row == 2 ? place.turn : place.dilation;
   }
 
   /// T (n x n) by central differences.
