@@ -2,6 +2,8 @@
 // copies all elements now and then.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <memory>
@@ -35,7 +37,9 @@ class ChunkedArray {
   }
 
  private:
-  static constexpr std::size_t chunk_size = 1024;
+  /// A power of two: some 32 kB.
+  static constexpr std::size_t chunk_size =
+      std::bit_floor(std::clamp<std::size_t>(32'768 / sizeof(T), 16, 1024));
   std::vector<std::unique_ptr<T[]>> chunks_;
   std::size_t size_ = 0;
 };

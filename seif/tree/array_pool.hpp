@@ -20,18 +20,22 @@ class ArrayPool {
    public:
     Array() = default;
     Array(Array&& other) noexcept
-        : pool_(other.pool_), memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
+        : pool_(other.pool_),
+          memory_(std::move(other.memory_)),
+          shelf_(other.shelf_),
+          size_(std::exchange(other.size_, 0)) {}
     Array& operator=(Array&& other) noexcept {
       clear();
       pool_ = other.pool_;
       memory_ = std::move(other.memory_);
+      shelf_ = other.shelf_;
       size_ = std::exchange(other.size_, 0);
       return *this;
     }
     ~Array() { clear(); }
 
     void clear() {
-      if (memory_) pool_->take_back(std::move(memory_), size_);
+      if (memory_) pool_->take_back(std::move(memory_), shelf_);
       size_ = 0;
     }
     double* data() { return memory_.get(); }
@@ -44,11 +48,12 @@ class ArrayPool {
 
    private:
     friend class ArrayPool;
-    Array(ArrayPool* pool, std::unique_ptr<double[]> memory, std::size_t size)
-        : pool_(pool), memory_(std::move(memory)), size_(size) {}
+    Array(ArrayPool* pool, std::unique_ptr<double[]> memory, std::size_t shelf, std::size_t size)
+        : pool_(pool), memory_(std::move(memory)), shelf_(shelf), size_(size) {}
 
     ArrayPool* pool_ = nullptr;
     std::unique_ptr<double[]> memory_;
+    std::size_t shelf_ = 0;  // that it returns to
     std::size_t size_ = 0;
   };
 
@@ -56,14 +61,20 @@ class ArrayPool {
   ArrayPool(const ArrayPool&) = delete;
   ArrayPool& operator=(const ArrayPool&) = delete;
 
-  /// The values are undefined.
+  /// The values are undefined. An array that lies free is taken if it is not much larger than twice the size.
   Array take(std::size_t size) {
+    constexpr std::size_t shelves_to_double = 4;
     if (size == 0) return {};
-    Shelf& shelf = shelf_of(size);
-    if (shelf.free.empty()) return {this, made(shelf, capacity_of(size)), size};
-    std::unique_ptr<double[]> memory = std::move(shelf.free.back());
-    shelf.free.pop_back();
-    return {this, std::move(memory), size};
+    const std::size_t smallest = shelf_of(size);
+    const std::size_t end = std::min(smallest + shelves_to_double + 1, shelves);
+    for (std::size_t shelf = smallest; shelf < end; ++shelf) {
+      auto& free = shelves_[shelf].free;
+      if (free.empty()) continue;
+      std::unique_ptr<double[]> memory = std::move(free.back());
+      free.pop_back();
+      return {this, std::move(memory), shelf, size};
+    }
+    return {this, made(shelves_.at(smallest), capacity_of(size)), smallest, size};
   }
 
   /// The memory of all arrays, in use or not.
@@ -84,9 +95,9 @@ class ArrayPool {
     const int shift = shift_of(size);
     return (((size - 1) >> shift) + 1) << shift;
   }
-  Shelf& shelf_of(std::size_t size) {
+  static std::size_t shelf_of(std::size_t size) {
     const int shift = shift_of(size);
-    return shelves_.at(4 * static_cast<std::size_t>(shift) + ((size - 1) >> shift));
+    return 4 * static_cast<std::size_t>(shift) + ((size - 1) >> shift);
   }
 
   std::unique_ptr<double[]> made(Shelf& shelf, std::size_t capacity) {
@@ -95,8 +106,8 @@ class ArrayPool {
     bytes_ += capacity * sizeof(double);
     return std::make_unique_for_overwrite<double[]>(capacity);
   }
-  void take_back(std::unique_ptr<double[]> memory, std::size_t size) noexcept {
-    shelf_of(size).free.push_back(std::move(memory));
+  void take_back(std::unique_ptr<double[]> memory, std::size_t shelf) noexcept {
+    shelves_[shelf].free.push_back(std::move(memory));
   }
 
   std::array<Shelf, shelves> shelves_;

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "seif/tree/room.hpp"
+
 namespace seif {
 
 void HotZone::reserve(int landmarks) {
@@ -13,10 +15,6 @@ void HotZone::reserve(int landmarks) {
   mean_.conservativeResize(room);
   s_.conservativeResize(room);
   step_.resize(room);
-  columns_.resize(room, room);
-  swept_.resize(room, room);
-  pivot_.resize(room, room);
-  change_.resize(room, room);
   members_.reserve(static_cast<std::size_t>(room / 2));
   rest_.reserve(static_cast<std::size_t>(room / 2));
 }
@@ -73,15 +71,12 @@ void HotZone::list_rest(std::span<const int> indices) {
 }
 
 /// F_RR -= sign change, of which the lower triangle is known.
-void HotZone::spread_change(double sign) {
-  const auto block_of = [](Eigen::MatrixXd& M, std::size_t i, std::size_t j) {
-    return M.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j));
-  };
+void HotZone::spread_change(double sign, Eigen::Ref<Eigen::MatrixXd> change) {
+  const auto at = [](std::size_t i) { return 2 * static_cast<Eigen::Index>(i); };
   for (std::size_t j = 0; j < rest_.size(); ++j) {
-    change_(static_cast<Eigen::Index>(2 * j), static_cast<Eigen::Index>(2 * j + 1)) =
-        change_(static_cast<Eigen::Index>(2 * j + 1), static_cast<Eigen::Index>(2 * j));
+    change(at(j), at(j) + 1) = change(at(j) + 1, at(j));
     for (std::size_t i = j; i < rest_.size(); ++i) {
-      const Eigen::Matrix2d step = sign * block_of(change_, i, j);
+      const Eigen::Matrix2d step = sign * change.block<2, 2>(at(i), at(j));
       block(rest_[i], rest_[j]) -= step;
       if (i != j) block(rest_[j], rest_[i]) -= step.transpose();
     }
@@ -94,9 +89,13 @@ bool HotZone::sweep(std::span<const int> indices, double sign) {
   list_rest(indices);
   const auto r = 2 * static_cast<Eigen::Index>(rest_.size());
   const auto t = 2 * static_cast<Eigen::Index>(indices.size());
-  auto U = columns_.topLeftCorner(r, t);
-  auto V = swept_.topLeftCorner(r, t);
-  auto A = pivot_.topLeftCorner(t, t);
+  make_room(columns_, r * t);
+  make_room(swept_, r * t);
+  make_room(pivot_, t * t);
+  make_room(change_, std::max(r * r, t * t));
+  Eigen::Map<Eigen::MatrixXd> U(columns_.data(), r, t);
+  Eigen::Map<Eigen::MatrixXd> V(swept_.data(), r, t);
+  Eigen::Map<Eigen::MatrixXd> A(pivot_.data(), t, t);
   const auto at = [](std::size_t i) { return 2 * static_cast<Eigen::Index>(i); };
   for (std::size_t j = 0; j < indices.size(); ++j) {
     for (std::size_t i = 0; i < rest_.size(); ++i) U.block<2, 2>(at(i), at(j)) = block(rest_[i], indices[j]);
@@ -108,9 +107,10 @@ bool HotZone::sweep(std::span<const int> indices, double sign) {
   V = U;
   llt.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(V);
   llt.matrixL().solveInPlace<Eigen::OnTheRight>(V);
-  change_.topLeftCorner(r, r).triangularView<Eigen::Lower>() = V * U.transpose();
-  spread_change(sign);
-  auto inverse = columns_.topLeftCorner(t, t);  // U is done with
+  Eigen::Map<Eigen::MatrixXd> change(change_.data(), r, r);
+  change.triangularView<Eigen::Lower>() = V * U.transpose();
+  spread_change(sign, change);
+  Eigen::Map<Eigen::MatrixXd> inverse(change_.data(), t, t);  // the change is done with
   inverse.setIdentity();
   llt.solveInPlace(inverse);
   for (std::size_t j = 0; j < indices.size(); ++j) {

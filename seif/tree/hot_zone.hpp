@@ -90,7 +90,7 @@ class HotZone {
   std::int64_t all_blocks() const { return std::int64_t{size()} * (size() + 1) / 2; }
   void reserve(int landmarks);
   void list_rest(std::span<const int> indices);
-  void spread_change(double sign);
+  void spread_change(double sign, Eigen::Ref<Eigen::MatrixXd> change);
   bool sweep(std::span<const int> indices, double sign);
   Eigen::Vector2d step_of(int index, const Eigen::VectorXd& d) const;
 
@@ -98,8 +98,8 @@ class HotZone {
   Eigen::MatrixXd F_;     // symmetric, with room to grow
   Eigen::VectorXd mean_;  // with room to grow, as all below [m]
   Eigen::VectorXd s_;
-  std::vector<int> rest_;  // indices that a sweep does not take
-  Eigen::MatrixXd columns_, swept_, pivot_, change_;
+  std::vector<int> rest_;                             // indices that a sweep does not take
+  Eigen::VectorXd columns_, swept_, pivot_, change_;  // matrices of a sweep, with room to grow
   Eigen::VectorXd step_;
   std::int64_t blocks_touched_ = 0;
 };

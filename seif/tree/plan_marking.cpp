@@ -68,6 +68,7 @@ void PlanMarking::mark_changed() {
 
 void PlanMarking::finish() {
   for (const int at : plan_.stale) {
+    records_.sent(at).message.S.clear();  // nobody adds it up any more
     note_groups(at);
     records_.for_each_source(at, [&](int source) { note_groups(source); });
   }

@@ -30,8 +30,7 @@ TEST(GroupMotion, KeepsItsShape) {
   const Lever a(5.0, 1.0);
   const Lever b(-2.0, 3.0);
   const GroupMotion d(7.0, -1.0, 0.9, 0.25);
-  const Eigen::Vector2d apart =
-      Eigen::Vector2d(a - b) + end_step(a, d, true) - end_step(b, d, true);
+  const Eigen::Vector2d apart = Eigen::Vector2d(a - b) + end_step(a, d, true) - end_step(b, d, true);
   EXPECT_NEAR(apart.norm(), 1.25 * (a - b).norm(), 1e-12);
 }
 
