@@ -238,16 +238,14 @@ void add_mean_recovery(OptionTable<SeifOptions>& table) {
       .number(
           "tree_unknowns", [](SeifOptions& o) -> int& { return o.tree.most_unknowns; }, {8, 1'000'000},
           "With the tree: unknowns at one node above which landmarks far from the robot move as groups, "
-          "which "
-          "turn and are strained evenly [-].")
+          "which turn and change their size [-].")
       .number(
           "tree_grain", [](SeifOptions& o) -> double& { return o.tree.grain; }, {0.01, 100.0},
           "With the tree: distance from the robot over size of the coarsest groups [-].")
       .number(
           "tree_blocks", [](SeifOptions& o) -> int& { return o.tree.most_blocks; }, {0, 1'000'000'000},
           "With the tree: blocks that an update may touch before it stops to prepare the next zone, or more "
-          "if "
-          "the robot would arrive before the zone is ready; 0: all at once, so that no observation waits "
+          "if the robot would arrive before the zone is ready; 0: all at once, so that no observation waits "
           "[-].")
       .choice(
           "tree_frames", [](SeifOptions& o) -> bool& { return o.tree.turns; },
