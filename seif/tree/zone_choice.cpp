@@ -55,7 +55,8 @@ bool ZoneChoice::choose(const InformationState& state, std::span<const int> slot
 }
 
 bool ZoneChoice::is_bent(const InformationState& state) {
-  constexpr double most = 0.05;  // of the view
+  constexpr double most = 0.05;        // of the view
+  constexpr double most_sigmas = 3.0;  // of a sighting: what noise explains calls for no plan
   places_.clear();
   for (int p = 0; p < state.active_count(); ++p) {
     const int slot = state.active(p);
@@ -64,7 +65,7 @@ bool ZoneChoice::is_bent(const InformationState& state) {
   boundary_.fit(records_.turning(), places_);
   double longest = 0.0;
   for (std::size_t i = 0; i < places_.size(); ++i) longest = std::max(longest, boundary_.step(i).norm());
-  return longest > most * records_.view;
+  return longest > most * records_.view && longest > most_sigmas * state.first_estimates().sighting_sd();
 }
 
 void ZoneChoice::want_leaf(int leaf, std::vector<int>& chosen) {
