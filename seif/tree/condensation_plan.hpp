@@ -49,6 +49,7 @@ struct CondensationPlan {
   FrozenPieces fresh;           // frozen, and not yet in the elements of leaves
   std::vector<int> new_leaves;  // that stand beside the tree
   int updates = 0;              // [-]
+  bool is_urgent = false;       // a closure has bent the zone
 };
 
 }  // namespace seif

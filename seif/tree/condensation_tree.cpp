@@ -186,10 +186,11 @@ bool CondensationTree::solve_all(InformationState& state) {
   return done;
 }
 
-/// Of those that this update may touch, more when the robot would arrive before the next zone is ready. [-]
+/// Of those that this update may touch; more when the robot would arrive before the next zone is ready, and twice as
+/// many when a closure has bent the zone. [-]
 std::int64_t CondensationTree::blocks_left(const InformationState& state) const {
   constexpr double ready_after = 0.6;  // of the updates until the robot arrives
-  const std::int64_t most = records_.options.most_blocks;
+  const std::int64_t most = (plan_.is_urgent ? 2 : 1) * std::int64_t{records_.options.most_blocks};
   const std::int64_t touched = blocks_touched() + state.blocks_touched() - update_begun_at_;
   const bool is_late = plan_.updates > ready_after * choice_.updates_to_arrive();
   return std::max(most / 4, (is_late ? most + most / 3 : most) - touched);
@@ -200,6 +201,7 @@ bool CondensationTree::end_update(InformationState& state) {
   if (!plan_.is_running && records_.options.turns && choice_.is_bent(state)) {
     plan_.hot_leaves = records_.hot_leaves;
     begin_plan(state, false);
+    plan_.is_urgent = true;
   }
   if (!plan_.is_running) return true;
   ++plan_.updates;

@@ -28,9 +28,13 @@ void Grouping::tie_front(const InformationState& state, SentMessage& next) {
   next.groups.clear();
   const int unknowns = note_present(next.groups);
   if (!any_present_ && unknowns <= records_.options.most_unknowns) return;
-  constexpr std::array<double, 5> ratios{std::numeric_limits<double>::infinity(), 8.0, 4.0, 2.0, 1.0};
-  for (const double ratio : ratios) {
-    if (count_unknowns(ratio * records_.options.grain) <= records_.options.most_unknowns) break;
+  list_candidates(nothing_is_far);
+  if (count_unknowns(nothing_is_far) > records_.options.most_unknowns) {
+    constexpr std::array ratios{8.0, 4.0, 2.0, 1.0};
+    list_candidates(ratios.back() * records_.options.grain);
+    for (const double ratio : ratios) {
+      if (count_unknowns(ratio * records_.options.grain) <= records_.options.most_unknowns) break;
+    }
   }
   const std::size_t count = targets_.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -52,22 +56,39 @@ int Grouping::note_present(std::vector<int>& groups) {
   return unknowns;
 }
 
-/// The node of the largest group that a variable of the front may be tied to, or none. Where a part of the
-/// front has it in a group already, it goes where that goes. Whether a group may be is the same for all that
-/// stand below its node: a front has all of them in it, or none.
-int Grouping::group_for(FrontVariable v, double ratio) {
-  if (!is_group(v) && records_.node(records_.landmark(v).leaf).next_hot) return none;
-  const bool may_be_tied = allowed_ && ratio < std::numeric_limits<double>::infinity();
-  int chosen = none;
+/// The groups that each variable of the front may be tied to: nodes above it, from below. Where a part of the front has
+/// it in a group already, it goes where that goes. Whether a group may be is the same for all that stand below its
+/// node: a front has all of them in it, or none.
+void Grouping::list_candidates(double least_ratio) {
+  candidates_.clear();
+  first_candidate_.assign(1, 0);
+  for (const Front::Variable& v : front_.variables()) {
+    add_candidates(v.variable, least_ratio);
+    first_candidate_.push_back(candidates_.size());
+  }
+}
+
+void Grouping::add_candidates(FrontVariable v, double least_ratio) {
+  if (!is_group(v) && records_.node(records_.landmark(v).leaf).next_hot) return;
+  const bool may_begin = allowed_ && least_ratio < nothing_is_far;
   for (int n = records_.node_of(v); n != none; n = records_.tree.parent(n)) {
     const LandmarkGroup& group = records_.node(n).group;
     const bool is_present = group.present_in == fronts_;
-    const bool is_far = may_be_tied && distance_ratio(n) >= ratio;
+    const double ratio = may_begin ? distance_ratio(n) : 0.0;
+    const bool is_far = may_begin && ratio >= least_ratio;
     // A leaf may be wider than the rectangles above it, and nearer.
     if (!is_far && !any_present_ && !records_.tree.is_leaf(n)) break;
-    if (is_present || (is_far && (group.fronts == 0 || group.known_in == plan_.number))) chosen = n;
+    const bool may_be_tied = is_far && (group.fronts == 0 || group.known_in == plan_.number);
+    if (is_present || may_be_tied) candidates_.push_back({n, may_be_tied ? ratio : 0.0, is_present});
   }
-  return chosen;
+}
+
+/// The node of the largest group that is present or farther than `ratio` times its size, or none.
+int Grouping::target_of(std::size_t index, double ratio) const {
+  for (std::size_t i = first_candidate_[index + 1]; i-- > first_candidate_[index];) {
+    if (candidates_[i].is_present || candidates_[i].ratio >= ratio) return candidates_[i].node;
+  }
+  return none;
 }
 
 /// What is farther than `ratio` times its size is tied.
@@ -75,7 +96,7 @@ void Grouping::list_targets(double ratio) {
   ++counts_;
   targets_.clear();
   for (const Front::Variable& v : front_.variables()) {
-    const int target = group_for(v.variable, ratio);
+    const int target = target_of(targets_.size(), ratio);
     targets_.push_back(target);
     if (target == none) continue;
     LandmarkGroup& group = records_.node(target).group;

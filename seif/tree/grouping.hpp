@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "seif/information_state.hpp"
@@ -30,9 +31,19 @@ class Grouping {
 
  private:
   static constexpr int none = -1;
+  static constexpr double nothing_is_far = std::numeric_limits<double>::infinity();
+  /// A node whose group a variable may be tied to.
+  struct Candidate {
+    int node;
+    double ratio;  // [-] as distance_ratio(); 0 if no group may begin there
+    bool is_present;
+  };
+
   double distance_ratio(int group);
   int note_present(std::vector<int>& groups);
-  int group_for(FrontVariable v, double ratio);
+  void list_candidates(double least_ratio);
+  void add_candidates(FrontVariable v, double least_ratio);
+  int target_of(std::size_t index, double ratio) const;
   void list_targets(double ratio);
   int count_unknowns(double ratio);
   Eigen::Vector2d place(const InformationState& state, FrontVariable v) const;
@@ -43,9 +54,11 @@ class Grouping {
   const CondensationPlan& plan_;
   Front& front_;
   bool allowed_ = true;
-  int fronts_ = 0, counts_ = 0;  // [-] so far: marks of groups
-  bool any_present_ = false;     // groups in the front, by what others have sent
-  std::vector<int> targets_;     // by variable of the front: the node whose group it is tied to, or none
+  int fronts_ = 0, counts_ = 0;               // [-] so far: marks of groups
+  bool any_present_ = false;                  // groups in the front, by what others have sent
+  std::vector<Candidate> candidates_;         // of all variables of the front
+  std::vector<std::size_t> first_candidate_;  // by variable; and the end
+  std::vector<int> targets_;  // by variable of the front: the node whose group it is tied to, or none
 };
 
 }  // namespace seif

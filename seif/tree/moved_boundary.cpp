@@ -52,6 +52,12 @@ void MovedBoundary::bring(Eigen::Ref<Eigen::MatrixXd> S) {
   jacobian_.bring(S);
 }
 
+void MovedBoundary::bring_lower(Eigen::Ref<Eigen::MatrixXd> S) {
+  if (!turning_) return;
+  jacobian_.of(fit_, rows_, size_);
+  jacobian_.bring_lower(S);
+}
+
 void MovedBoundary::bring_residual(Eigen::Ref<Eigen::VectorXd> r) {
   if (!turning_) return;
   jacobian_.of(fit_, rows_, size_);

@@ -30,6 +30,7 @@ void PlanMarking::reset() {
   plan_.is_running = true;
   ++plan_.number;
   plan_.updates = 0;
+  plan_.is_urgent = false;
   plan_.read = plan_.carried_so_far = plan_.ready = 0;
   plan_.stale.clear();
 }

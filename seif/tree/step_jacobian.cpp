@@ -89,25 +89,43 @@ void StepJacobian::set_clusters(const BodyFit& fit) {
   }
 }
 
-/// (D + U C')' S (D + U C') = D' S D + B C' + C B', with B = D' S U + C U' S U / 2.
 void StepJacobian::bring(Eigen::Ref<Eigen::MatrixXd> S) {
+  bring_lower(S);
+  for (Eigen::Index j = 0; j < S.cols(); ++j) S.row(j).tail(S.cols() - j) = S.col(j).tail(S.cols() - j);
+}
+
+/// (D + U C')' S (D + U C') = D' S D + B C' + C B', with B = D' S U + C U' S U / 2.
+void StepJacobian::bring_lower(Eigen::Ref<Eigen::MatrixXd> S) {
   auto B = B_.topLeftCorner(size_, k_);
-  B.noalias() = S * U();
+  for (Eigen::Index k = 0; k < k_; ++k) B.col(k).noalias() = S.selfadjointView<Eigen::Lower>() * U().col(k);
   auto half = half_.topLeftCorner(k_, k_);
   half.noalias() = 0.5 * (U().transpose() * B);
-  for (std::size_t i = 0; i < D_.size(); ++i) {
-    auto rows = B.middleRows<2>(rows_[i]);
-    for (Eigen::Index k = 0; k < k_; ++k) rows.col(k) = (D_[i].transpose() * rows.col(k)).eval();
-  }
+  for (Eigen::Index k = 0; k < k_; ++k) turn_pairs(B.col(k).data(), 0);
   B.noalias() += C() * half;
+  turn_lower(S);
+  for (Eigen::Index k = 0; k < k_; ++k) S.selfadjointView<Eigen::Lower>().rankUpdate(B.col(k), C().col(k));
+}
+
+/// D' S D.
+void StepJacobian::turn_lower(Eigen::Ref<Eigen::MatrixXd> S) const {
   for (std::size_t i = 0; i < D_.size(); ++i) {
-    auto columns = S.middleCols<2>(rows_[i]);
-    for (Eigen::Index k = 0; k < S.rows(); ++k) columns.row(k) = (columns.row(k) * D_[i]).eval();
-    auto rows = S.middleRows<2>(rows_[i]);
-    for (Eigen::Index k = 0; k < S.cols(); ++k) rows.col(k) = (D_[i].transpose() * rows.col(k)).eval();
+    const Eigen::Index col = rows_[i];
+    S(col, col + 1) = S(col + 1, col);
+    auto pair = S.block(col, col, size_ - col, 2);
+    for (Eigen::Index k = 0; k < pair.rows(); ++k) pair.row(k) = (pair.row(k) * D_[i]).eval();
   }
-  S.noalias() += B * C().transpose();
-  S.noalias() += C() * B.transpose();
+  for (Eigen::Index col = 0; col < size_; ++col) turn_pairs(&S(0, col), col);
+}
+
+/// D' times a column, in the pairs of rows from `first` - 1 on.
+void StepJacobian::turn_pairs(double* column, Eigen::Index first) const {
+  for (std::size_t i = D_.size(); i-- > 0 && rows_[i] + 1 >= first;) {
+    double* const pair = column + rows_[i];
+    const Eigen::Matrix2d& D = D_[i];
+    const double x = pair[0];
+    pair[0] = D(0, 0) * x + D(1, 0) * pair[1];
+    pair[1] = D(0, 1) * x + D(1, 1) * pair[1];
+  }
 }
 
 void StepJacobian::bring_residual(Eigen::Ref<Eigen::VectorXd> r) {

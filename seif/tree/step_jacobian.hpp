@@ -18,14 +18,17 @@ class StepJacobian {
   /// Point i has the rows from rows[i] on, of `size`: two, and a third one if it is turned.
   void of(const BodyFit& fit, std::span<const int> rows, Eigen::Index size);
 
-  /// Both triangles.
+  /// Both triangles; and where the lower one alone is known and asked for.
   void bring(Eigen::Ref<Eigen::MatrixXd> S);
+  void bring_lower(Eigen::Ref<Eigen::MatrixXd> S);
   void bring_residual(Eigen::Ref<Eigen::VectorXd> r);
 
  private:
   void begin(Eigen::Index size, Eigen::Index columns);
   void set_whole(const BodyFit& fit);
   void set_clusters(const BodyFit& fit);
+  void turn_lower(Eigen::Ref<Eigen::MatrixXd> S) const;
+  void turn_pairs(double* column, Eigen::Index first) const;
   auto U() const { return U_.topLeftCorner(size_, k_); }
   auto C() const { return C_.topLeftCorner(size_, k_); }
 
