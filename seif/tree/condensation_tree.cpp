@@ -186,14 +186,14 @@ bool CondensationTree::solve_all(InformationState& state) {
   return done;
 }
 
-/// Of those that this update may touch; more when the robot would arrive before the next zone is ready, and twice as
-/// many when a closure has bent the zone. [-]
+/// Of those that this update may touch; more when the robot would arrive before the next zone is ready, and when a
+/// closure has bent the zone. [-]
 std::int64_t CondensationTree::blocks_left(const InformationState& state) const {
   constexpr double ready_after = 0.6;  // of the updates until the robot arrives
-  const std::int64_t most = (plan_.is_urgent ? 2 : 1) * std::int64_t{records_.options.most_blocks};
+  const std::int64_t most = records_.options.most_blocks;
   const std::int64_t touched = blocks_touched() + state.blocks_touched() - update_begun_at_;
   const bool is_late = plan_.updates > ready_after * choice_.updates_to_arrive();
-  return std::max(most / 4, (is_late ? most + most / 3 : most) - touched);
+  return std::max(most / 4, (is_late || plan_.is_urgent ? most + most / 3 : most) - touched);
 }
 
 bool CondensationTree::end_update(InformationState& state) {

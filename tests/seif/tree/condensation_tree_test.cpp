@@ -318,6 +318,34 @@ TEST_P(InWorld, WhereGroupsMoveAsOneNothingOfTheResidualIsLost) {
   EXPECT_TRUE(seeds == 1 || most_left[0] > 1e4 * residual_rounding);
 }
 
+/// The same in random worlds, with leaves and slices of any size.
+TEST(CondensationTree, OfRandomEpisodesNothingOfTheResidualIsLost) {
+  const unsigned episodes = test::under_sanitizer ? 20 : 1'000;
+  for (unsigned seed = 1; seed <= episodes; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> anywhere(0.0, 18.0);
+    Points landmarks;
+    for (int i = 0; i < 70; ++i) landmarks.emplace_back(anywhere(random), anywhere(random));
+    Points path;
+    for (int i = 0; i < 5; ++i) path.emplace_back(anywhere(random), anywhere(random));
+    CondensationOptions options = grouped;
+    options.most_in_leaf = std::uniform_int_distribution(2, 8)(random);
+    options.most_hot = std::uniform_int_distribution(4, 16)(random);
+    options.most_blocks = std::uniform_int_distribution(0, 3)(random) * 300;
+    test::PathDrive drive(landmarks, path, seed);
+    Twins twins(drive.setup().start, options, true);
+    while (!drive.at_end()) {
+      drive.advance();
+      twins.update(drive.odometry(), drive.scan());
+      ASSERT_LT(largest(twins.exact.r()), residual_rounding);
+    }
+    ASSERT_TRUE(twins.tree.solve_all(twins.state));
+    twins.follow();
+    ASSERT_LT(largest(full_r(twins.exact)), residual_rounding);
+  }
+}
+
 TEST_P(InWorld, WhereGroupsMoveAsOneTheMeanIsNearlyExact) {
   const Points path = GetParam().path();
   const unsigned drives = std::max(seeds, 5U);  // a ratio of sums; one drive alone tells little
