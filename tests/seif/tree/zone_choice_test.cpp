@@ -22,7 +22,7 @@ struct TwoHeaps {
     while (static_cast<int>(records.nodes.size()) < records.tree.size()) records.nodes.push_back({});
     state.first_estimates().note_sighting_sd(0.02);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      state.add_landmark(static_cast<LandmarkId>(i), places[i]);
+      state.activate(state.add_landmark(static_cast<LandmarkId>(i), places[i]));
       records.landmarks.push_back({.leaf = leaf, .home = places[i], .planned = places[i]});
     }
     choice.begin_scan(state, {}, view);
@@ -41,7 +41,7 @@ struct TwoHeaps {
 };
 
 TEST(ZoneChoice, AClosureThatMovesHeapsAgainstEachOtherBendsTheZone) {
-  EXPECT_TRUE(TwoHeaps().is_bent_by({0, 2.0}));
+  EXPECT_TRUE(TwoHeaps().is_bent_by({0, 4.0}));
   EXPECT_TRUE(TwoHeaps().is_bent_by({2.0, 0}));
 }
 
