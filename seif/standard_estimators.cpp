@@ -245,8 +245,9 @@ void add_mean_recovery(OptionTable<SeifOptions>& table) {
       .number(
           "tree_blocks", [](SeifOptions& o) -> int& { return o.tree.most_blocks; }, {0, 1'000'000'000},
           "With the tree: blocks that an update may touch before it stops to prepare the next zone, or more "
-          "if the robot would arrive before the zone is ready; 0: all at once, so that no observation waits "
-          "[-].")
+          "if the robot would arrive before it is ready or a closure has bent the map; 0: all at once, so "
+          "that no "
+          "observation waits [-].")
       .choice(
           "tree_frames", [](SeifOptions& o) -> bool& { return o.tree.turns; },
           OptionChoices<bool>{{"turning", true}, {"fixed", false}},

@@ -14,7 +14,7 @@ struct CondensationOptions {
   /// [-] Blocks that one update may touch before it stops to prepare the next zone; a quarter of them is always left
   /// for that, and a third more when the robot would arrive before the zone is ready, or a closure has bent the zone.
   /// 0: all at once, as soon as a landmark outside the zone is seen.
-  int most_blocks = 22'000;
+  int most_blocks = 26'000;
   // In multiples of the range that the robot sees:
   double zone_before = 0.75;  // how far before the robot the zone has its middle
   double look_ahead = 0.8;    // leaves so near to it are wanted in the zone,

@@ -2,10 +2,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "ring_drive.hpp"
 #include "seif/dense/ekf.hpp"
@@ -24,20 +27,25 @@ void update(benchmark::State& state, const Options&... options) {
   RingDrive drive(static_cast<int>(state.range(0)), 1);
   Filter filter(drive.setup(), options...);
   for (int k = 0; k < drive.steps_for_a_round(); ++k) drive.step(filter);
-  const Counts before = filter.counts();
+  std::vector<std::int64_t> blocks;  // of each update
   std::int64_t observations = 0;
   for (auto _ : state) {
+    const std::int64_t before = filter.counts().blocks_touched;
     drive.advance();
     observations += static_cast<std::int64_t>(drive.scan().observations.size());
     const auto begin = std::chrono::steady_clock::now();
     filter.motion_update(drive.odometry());
     filter.measurement_update(drive.scan(), test::ignore);
     state.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    blocks.push_back(filter.counts().blocks_touched - before);
   }
   const auto updates = static_cast<double>(state.iterations());
   state.counters["observations"] = static_cast<double>(observations) / updates;
-  state.counters["blocks"] =
-      static_cast<double>(filter.counts().blocks_touched - before.blocks_touched) / updates;
+  std::ranges::sort(blocks);
+  state.counters["blocks"] = std::accumulate(blocks.begin(), blocks.end(), 0.0) / updates;
+  state.counters["blocks_p50"] = static_cast<double>(blocks[blocks.size() / 2]);
+  state.counters["blocks_p99"] = static_cast<double>(blocks[blocks.size() * 99 / 100]);
+  state.counters["blocks_max"] = static_cast<double>(blocks.back());
   state.counters["bytes"] = static_cast<double>(filter.memory_bytes());
 }
 
