@@ -61,6 +61,11 @@ class FieldDrive {
     if (std::abs(turn) > 0.3) return step_to(filter, truth_ * Pose2{0.0, 0.0, std::copysign(0.3, turn)});
     return step_to(filter, truth_ * Pose2{0.0, 0.0, turn} * Pose2{std::min(longest, to_go.norm()), 0.0, 0.0});
   }
+  /// From one place to another, anywhere.
+  std::int64_t wander(Seif& filter, double longest) {
+    if (is_at(goal_)) goal_ = anywhere();
+    return go_towards(filter, goal_, longest);
+  }
   bool is_at(const Eigen::Vector2d& place) const {
     return (place - Eigen::Vector2d(truth_.x, truth_.y)).norm() < 1e-6;
   }
@@ -68,8 +73,8 @@ class FieldDrive {
 
   void map_all(Seif& filter) {
     for (double y = 0.0; y < side; y += 8.0) {
-      for (const Eigen::Vector2d corner : {Eigen::Vector2d(0, y), Eigen::Vector2d(side, y),
-                                           Eigen::Vector2d(side, y + 4), Eigen::Vector2d(0, y + 4)}) {
+      for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, y), Eigen::Vector2d(side, y),
+                                            Eigen::Vector2d(side, y + 4), Eigen::Vector2d(0, y + 4)}) {
         while (!is_at(corner)) go_towards(filter, corner, 0.5);
       }
     }
@@ -99,6 +104,7 @@ class FieldDrive {
 
   std::vector<Eigen::Vector2d> landmarks_;
   Pose2 truth_;
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();  // of wander()
   double t_ = 0.0;
   std::mt19937_64 random_;
   std::normal_distribution<double> noise_;
@@ -132,11 +138,7 @@ const Habit habits[] = {
        return drive.step_to(filter, {place.x(), place.y(), 0.1 * k});
      }},
     {"DrivesFasterThanPlansAreMade",
-     [](FieldDrive& drive, Seif& filter, int k) {
-       static Eigen::Vector2d place;  // where it drives to
-       if (k == 0 || drive.is_at(place)) place = drive.anywhere();
-       return drive.go_towards(filter, place, 3.0);
-     }},
+     [](FieldDrive& drive, Seif& filter, int) { return drive.wander(filter, 3.0); }},
 };
 
 INSTANTIATE_TEST_SUITE_P(Knows, RobotThat, testing::ValuesIn(habits),
