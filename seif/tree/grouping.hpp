@@ -31,7 +31,7 @@ class Grouping {
 
  private:
   static constexpr int none = -1;
-  static constexpr double nothing_is_far = std::numeric_limits<double>::infinity();
+  static constexpr double nothing_is_far = std::numeric_limits<double>::infinity();  // a ratio [-]
   /// A node whose group a variable may be tied to.
   struct Candidate {
     int node;

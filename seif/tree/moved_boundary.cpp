@@ -46,22 +46,22 @@ void MovedBoundary::steps(std::span<const MovedPlace> places, Eigen::Ref<Eigen::
   }
 }
 
+/// None if nothing turns: a step is then the difference of two places.
+bool MovedBoundary::find_jacobian() {
+  if (turning_) jacobian_.of(fit_, rows_, size_);
+  return turning_;
+}
+
 void MovedBoundary::bring(Eigen::Ref<Eigen::MatrixXd> S) {
-  if (!turning_) return;
-  jacobian_.of(fit_, rows_, size_);
-  jacobian_.bring(S);
+  if (find_jacobian()) jacobian_.bring(S);
 }
 
 void MovedBoundary::bring_lower(Eigen::Ref<Eigen::MatrixXd> S) {
-  if (!turning_) return;
-  jacobian_.of(fit_, rows_, size_);
-  jacobian_.bring_lower(S);
+  if (find_jacobian()) jacobian_.bring_lower(S);
 }
 
 void MovedBoundary::bring_residual(Eigen::Ref<Eigen::VectorXd> r) {
-  if (!turning_) return;
-  jacobian_.of(fit_, rows_, size_);
-  jacobian_.bring_residual(r);
+  if (find_jacobian()) jacobian_.bring_residual(r);
 }
 
 }  // namespace seif

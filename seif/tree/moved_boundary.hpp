@@ -46,11 +46,13 @@ class MovedBoundary {
   void steps(std::span<const MovedPlace> places, Eigen::Ref<Eigen::VectorXd> d) const;
   /// What was known of the part in its own frame, to what it says of where its variables are now.
   void bring(Eigen::Ref<Eigen::MatrixXd> S);
-  /// The same for the lower triangle alone.
+  /// The same for the lower triangle. What stands above it is lost.
   void bring_lower(Eigen::Ref<Eigen::MatrixXd> S);
   void bring_residual(Eigen::Ref<Eigen::VectorXd> r);
 
  private:
+  bool find_jacobian();
+
   bool turning_ = true;
   BodyMotion motion_;
   BodyFit fit_;

@@ -1,7 +1,6 @@
 #include "seif/tree/moved_part.hpp"
 
-#include <algorithm>
-
+#include "seif/packed_triangle.hpp"
 #include "seif/tree/room.hpp"
 
 namespace seif {
@@ -17,14 +16,12 @@ void MovedPart::bring(const Turning& turning, std::span<const MovedPlace> places
   auto r = r_.head(b);
   boundary_.steps(places, d);
   Eigen::Map<Eigen::MatrixXd> S(square_.data(), b, b);
-  const double* from = part.S.data();
-  for (Eigen::Index col = 0; col < b; from += b - col, ++col) std::copy_n(from, b - col, &S(col, col));
+  unpack_lower_triangle(part.S.data(), S);
   r = Eigen::Map<const Eigen::VectorXd>(part.s.data(), b);
   r.noalias() -= S.selfadjointView<Eigen::Lower>() * d;
   boundary_.bring_lower(S);
   boundary_.bring_residual(r);
-  double* to = packed_.data();
-  for (Eigen::Index col = 0; col < b; ++col) to = std::copy_n(&S(col, col), b - col, to);
+  pack_triangle(S, packed_.data());
 }
 
 }  // namespace seif

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seif/packed_triangle.hpp"
+
 namespace seif {
 namespace {
 
@@ -91,7 +93,7 @@ void StepJacobian::set_clusters(const BodyFit& fit) {
 
 void StepJacobian::bring(Eigen::Ref<Eigen::MatrixXd> S) {
   bring_lower(S);
-  for (Eigen::Index j = 0; j < S.cols(); ++j) S.row(j).tail(S.cols() - j) = S.col(j).tail(S.cols() - j);
+  fill_upper_triangle(S);
 }
 
 /// (D + U C')' S (D + U C') = D' S D + B C' + C B', with B = D' S U + C U' S U / 2.
@@ -117,7 +119,7 @@ void StepJacobian::turn_lower(Eigen::Ref<Eigen::MatrixXd> S) const {
   for (Eigen::Index col = 0; col < size_; ++col) turn_pairs(&S(0, col), col);
 }
 
-/// D' times a column, in the pairs of rows from `first` - 1 on.
+/// D' times a column, for all points whose second row is `first` or a later one.
 void StepJacobian::turn_pairs(double* column, Eigen::Index first) const {
   for (std::size_t i = D_.size(); i-- > 0 && rows_[i] + 1 >= first;) {
     double* const pair = column + rows_[i];

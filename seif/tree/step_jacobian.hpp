@@ -18,8 +18,8 @@ class StepJacobian {
   /// Point i has the rows from rows[i] on, of `size`: two, and a third one if it is turned.
   void of(const BodyFit& fit, std::span<const int> rows, Eigen::Index size);
 
-  /// Both triangles; and where the lower one alone is known and asked for.
   void bring(Eigen::Ref<Eigen::MatrixXd> S);
+  /// Reads and writes the lower triangle of S. What stands above it is lost.
   void bring_lower(Eigen::Ref<Eigen::MatrixXd> S);
   void bring_residual(Eigen::Ref<Eigen::VectorXd> r);
 

@@ -148,8 +148,8 @@ TEST_P(RobotThat, NeverAsksForMoreThanTheBoundOfAnUpdate) {
   FieldDrive drive(1);
   Seif filter(drive.setup(), SeifOptions{});
   drive.map_all(filter);
-  while (!drive.is_at({FieldDrive::side / 2, FieldDrive::side / 2}))
-    drive.go_towards(filter, {FieldDrive::side / 2, FieldDrive::side / 2}, 0.5);
+  const Eigen::Vector2d middle(FieldDrive::side / 2, FieldDrive::side / 2);
+  while (!drive.is_at(middle)) drive.go_towards(filter, middle, 0.5);
   const std::size_t memory = filter.memory_bytes();
   std::int64_t most = 0;
   const int updates = test::under_sanitizer ? 100 : 1'000;
