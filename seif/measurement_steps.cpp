@@ -46,14 +46,16 @@ bool is_stale(const InformationState& state, const ObservationFactor& factor, co
   return ((sharper * covariance(now)).diagonal().array() < covariance(factor).diagonal().array()).any();
 }
 
-void replace_all(InformationState& state, const Pose2& T_robot_sensor,
-                 std::span<const ObservationFactor> replacements, std::vector<ObservationFactor>& factors) {
+void subtract_all(InformationState& state, std::span<const ObservationFactor> factors) {
   for (const ObservationFactor& factor : factors) subtract(state, factor);
-  follow_pose(state, factors.front().x0);
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    factors[i] = linearise(state, factors[i].slot, factors[i].observation, T_robot_sensor);
-    set_noise(factors[i], replacements[i].noise);
-    add(state, factors[i]);
+}
+
+void add_again(InformationState& state, const Pose2& T_robot_sensor, std::span<ObservationFactor> factors) {
+  for (ObservationFactor& factor : factors) {
+    const Eigen::Vector2d noise = factor.noise;
+    factor = linearise(state, factor.slot, factor.observation, T_robot_sensor);
+    set_noise(factor, noise);
+    add(state, factor);
   }
 }
 

@@ -29,10 +29,10 @@ void linearise_known(const InformationState& state, const Scan& scan, const Pose
 bool is_stale(const InformationState& state, const ObservationFactor& factor, const ObservationFactor& now,
               double relinearise_above);
 
-/// Takes out all factors, and adds them again: linearised at the present mean, and with the noise of their
-/// replacements.
-void replace_all(InformationState& state, const Pose2& T_robot_sensor,
-                 std::span<const ObservationFactor> replacements, std::vector<ObservationFactor>& factors);
+/// Takes out all factors of a scan.
+void subtract_all(InformationState& state, std::span<const ObservationFactor> factors);
+/// Adds them again: linearised at the present mean, and with the noise that they have.
+void add_again(InformationState& state, const Pose2& T_robot_sensor, std::span<ObservationFactor> factors);
 
 /// Adds the information that the two landmarks of each pair are the same one: m_a - m_b = 0 with standard
 /// deviation equal_sd. Skips pairs that are not both active. If their first estimates lie apart, the lever

@@ -100,6 +100,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   for (const ObservationFactor& factor : factors_) add(state_, factor);  // eqs. (21), (22)
   solve_window(scan.t);                                                  // eq. (37), for the window
   note_innovation();
+  carry_closing(scan.t);
   relinearise(scan.t);
 
   if (!add_new(scan)) solve_window(scan.t);
@@ -234,10 +235,25 @@ void Seif::note_innovation() {
   innovation_degrees_ = 2 * static_cast<int>(factors_.size());
 }
 
+/// Where a scan closes a loop, its Jacobians are those of the map after it, and what was known has those of the map
+/// before it. The difference looks like an observation of the heading. So what was known is linearised anew where the
+/// scan has moved it, and the scan is added again.
+void Seif::carry_closing(double t) {
+  if (tree_ == nullptr || !tree_->turns()) return;
+  if (std::ranges::none_of(factors_, &ObservationFactor::at_measurement)) return;
+  subtract_all(state_, factors_);
+  if (!tree_->carry(state_)) throw NumericalFailure("carrying at a closure", t);
+  add_again(state_, T_robot_sensor_, factors_);
+  solve_window(t);
+}
+
 void Seif::relinearise(double t) {
   for (int round = 0; round < most_relinearisations; ++round) {
     if (!any_stale()) return;
-    replace_all(state_, T_robot_sensor_, again_, factors_);
+    subtract_all(state_, factors_);
+    follow_pose(state_, factors_.front().x0);
+    for (std::size_t i = 0; i < factors_.size(); ++i) factors_[i].noise = again_[i].noise;
+    add_again(state_, T_robot_sensor_, factors_);
     solve_window(t);
   }
 }

@@ -99,6 +99,7 @@ class Seif final : public InformationFilter {
   void check_innovations(double t);
   double squared_mahalanobis(const ObservationFactor& factor, const WindowFactor& window);
   void note_innovation();
+  void carry_closing(double t);
   void relinearise(double t);
   bool any_stale();
   [[nodiscard]] bool add_new(const Scan& scan);

@@ -39,14 +39,18 @@ void BodyFit::add(const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now)
   points_.push_back({p_before, p_now, cluster});
 }
 
-/// Two ends of a map that lie side by side by chance, until a closure moves one, are not together.
+/// Two ends of a map that lie side by side by chance, until a closure moves one, are not together: as one body they
+/// would have turned by a large angle.
 bool BodyFit::are_together(const Point& point, const Eigen::Vector2d& p_before,
                            const Eigen::Vector2d& p_now) const {
   const double before = (p_before - point.before).squaredNorm();
   const double now = (p_now - point.now).squaredNorm();
   if (before >= squared_near_ || now >= squared_near_) return false;
   constexpr double most_stretch = 0.02;  // [-] of the distance that is near
-  return std::abs(std::sqrt(before) - std::sqrt(now)) <= most_stretch * std::sqrt(squared_near_);
+  constexpr double most_turn = 0.5;      // [rad]
+  const double apart = ((p_now - p_before) - (point.now - point.before)).squaredNorm();
+  return std::abs(std::sqrt(before) - std::sqrt(now)) <= most_stretch * std::sqrt(squared_near_) &&
+         apart <= most_turn * most_turn * before;
 }
 
 void BodyFit::add_turned(const Eigen::Vector2d& p_before, const Eigen::Vector2d& p_now, double angle) {

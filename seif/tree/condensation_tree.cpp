@@ -84,6 +84,8 @@ void CondensationTree::hold(const InformationState& state, std::span<const int> 
     held_.slots.push_back(slot);
     held_.at.push_back(state.mean(slot));
   }
+  const auto rows = 2 * static_cast<Eigen::Index>(held_.slots.size());
+  held_.Omega.setZero(rows, rows);
   switch_.anchor_zone();
   ++epoch_;
 }
@@ -137,6 +139,13 @@ bool CondensationTree::freeze(const InformationState& state, const FrozenPiece& 
 bool CondensationTree::solve_window(InformationState& state) {
   ++epoch_;
   return window_.solve(state);
+}
+
+bool CondensationTree::carry(InformationState& state) {
+  read_zone(state);
+  const bool done = switch_.carry(state);
+  zone_followed_at_ = ++epoch_;
+  return done;
 }
 
 // Plans.

@@ -63,6 +63,9 @@ class CondensationTree {
   /// Moves the means of robot and active landmarks to the exact solution, and all others with them.
   [[nodiscard]] bool solve_window(InformationState& state);
 
+  /// After a closure has moved the map: zone and window are linearised anew where their landmarks are now.
+  [[nodiscard]] bool carry(InformationState& state);
+
   /// The factor of the last solve_window().
   const WindowFactor& window_factor() const { return window_.factor(); }
 

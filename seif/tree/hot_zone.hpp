@@ -43,7 +43,7 @@ class HotZone {
   auto block(int a, int b) const { return F_.block<2, 2>(2 * a, 2 * b); }
   /// Adds to both blocks of a pair; to one block if a and b are the same.
   void add_information(int a, int b, const Eigen::Matrix2d& Omega_ab);
-  void add_residual(int index, const Eigen::Vector2d& s) { s_.segment<2>(2 * index) += s; }
+  auto residual(int index) { return s_.segment<2>(2 * index); }
 
   /// From A to P, which moves them to where their residual is zero, or from P to A. False, with nothing changed,
   /// if their block is not positive definite.

@@ -22,6 +22,16 @@ bool ZoneSwitch::move(InformationState& state) {
   return eliminate_inactive(state);
 }
 
+bool ZoneSwitch::carry(InformationState& state) {
+  list_inactive(state);
+  if (!inactive_.empty() && !zone_.restore(inactive_)) return false;
+  release_held();
+  bring_zone([this](int h) { return zone_.mean(h); });
+  carry_window(state);
+  anchor_zone();
+  return eliminate_inactive(state);
+}
+
 /// Loading, bringing and elimination each pass over the zone.
 std::int64_t ZoneSwitch::expected_blocks() const {
   const Condensed& message = plan_.messages[plan_.order.size() - 1].message;
@@ -90,12 +100,17 @@ void ZoneSwitch::load() {
   Condensed& message = records_.sent(0).message;
   zone_.load(message);
   message.S.clear();  // the zone has it
+  for (int h = 0; h < zone_.size(); ++h) records_.landmark(zone_.slot(h)).zone_index = h;
+  bring_zone([this](int h) { return Eigen::Vector2d(records_.landmark(zone_.slot(h)).planned); });
+}
+
+template <class PlaceBefore>
+void ZoneSwitch::bring_zone(PlaceBefore&& place_before) {
   places_.clear();
   for (int h = 0; h < zone_.size(); ++h) {
-    CondensedLandmark& p = records_.landmark(zone_.slot(h));
-    p.zone_index = h;
-    zone_.set_mean(h, p.read);
-    places_.push_back({.before = p.planned, .now = p.read});
+    const Eigen::Vector2d now = records_.landmark(zone_.slot(h)).read;
+    places_.push_back({.before = place_before(h), .now = now});
+    zone_.set_mean(h, now);
   }
   boundary_.fit(records_.turning(), places_);
   zone_.bring(boundary_, places_);
@@ -113,10 +128,58 @@ void ZoneSwitch::add_rest() {
 
 void ZoneSwitch::anchor_zone() {
   for (std::size_t i = 0; i < held_.slots.size(); ++i) {
-    const int h = records_.landmark(held_.slots[i]).zone_index;
-    zone_.add_information(h, h, held_.weight * Eigen::Matrix2d::Identity());
-    zone_.add_residual(h, held_.weight * (held_.at[i] - zone_.mean(h)));
+    for (std::size_t j = 0; j < held_.slots.size(); ++j)
+      held_block(i, j) = zone_.block(held_index(i), held_index(j));
   }
+  for (std::size_t i = 0; i < held_.slots.size(); ++i) {
+    const int h = held_index(i);
+    zone_.add_information(h, h, held_.weight * Eigen::Matrix2d::Identity());
+    zone_.residual(h) += held_.weight * (held_.at[i] - zone_.mean(h));
+  }
+}
+
+/// Takes out what anchor_zone() has added.
+void ZoneSwitch::release_held() {
+  for (std::size_t i = 0; i < held_.slots.size(); ++i) {
+    for (std::size_t j = 0; j < held_.slots.size(); ++j)
+      zone_.block(held_index(i), held_index(j)) = held_block(i, j);
+    zone_.residual(held_index(i)).setZero();
+  }
+  if (!held_.slots.empty()) balance_held();
+}
+
+/// What is frozen can be moved and turned freely as a whole, so its pulls have no sum and no torque. This gives the
+/// pulls at the held landmarks from all others.
+void ZoneSwitch::balance_held() {
+  const auto count = static_cast<double>(held_.slots.size());
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < held_.slots.size(); ++i) middle += zone_.mean(held_index(i)) / count;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double torque = 0.0;
+  for (int h = 0; h < zone_.size(); ++h) {
+    const Eigen::Vector2d pull = zone_.residual(h);
+    const Eigen::Vector2d lever = zone_.mean(h) - middle;
+    sum += pull;
+    torque += lever.x() * pull.y() - lever.y() * pull.x();
+  }
+  double squared_levers = 0.0;
+  for (std::size_t i = 0; i < held_.slots.size(); ++i)
+    squared_levers += (zone_.mean(held_index(i)) - middle).squaredNorm();
+  for (std::size_t i = 0; i < held_.slots.size(); ++i) {
+    const Eigen::Vector2d lever = zone_.mean(held_index(i)) - middle;
+    zone_.residual(held_index(i)) =
+        -sum / count - torque / squared_levers * Eigen::Vector2d(-lever.y(), lever.x());
+  }
+}
+
+void ZoneSwitch::add_to_held(int slot, int other, const Eigen::Matrix2d& Omega) {
+  const auto a = std::ranges::find(held_.slots, slot);
+  const auto b = std::ranges::find(held_.slots, other);
+  if (a == held_.slots.end() || b == held_.slots.end()) return;
+  const auto i = static_cast<std::size_t>(a - held_.slots.begin());
+  const auto j = static_cast<std::size_t>(b - held_.slots.begin());
+  held_block(i, j) += Omega;
+  if (i != j) held_block(j, i) += Omega.transpose();
 }
 
 void ZoneSwitch::add_to_zone(const FrozenPiece& piece) {
@@ -124,9 +187,11 @@ void ZoneSwitch::add_to_zone(const FrozenPiece& piece) {
   const auto mean_of = [&](int slot) { return zone_.mean(index_of(slot)); };
   for (std::size_t i = 0; i < piece.members.size(); ++i) {
     const int h = index_of(piece.members[i].slot);
-    zone_.add_residual(h, residual_of(piece, i, mean_of));
-    for (std::size_t j = 0; j <= i; ++j)
+    zone_.residual(h) += residual_of(piece, i, mean_of);
+    for (std::size_t j = 0; j <= i; ++j) {
       zone_.add_information(h, index_of(piece.members[j].slot), piece.block(i, j));
+      add_to_held(piece.members[i].slot, piece.members[j].slot, piece.block(i, j));
+    }
   }
 }
 
@@ -161,11 +226,15 @@ void ZoneSwitch::carry_window(InformationState& state) {
   for (int h = 0; h < zone_.size(); ++h) state.first_estimates().set_point(zone_.slot(h), zone_.mean(h));
 }
 
-bool ZoneSwitch::eliminate_inactive(const InformationState& state) {
+void ZoneSwitch::list_inactive(const InformationState& state) {
   inactive_.clear();
   for (int h = 0; h < zone_.size(); ++h) {
     if (state.position(zone_.slot(h)) < 0) inactive_.push_back(h);
   }
+}
+
+bool ZoneSwitch::eliminate_inactive(const InformationState& state) {
+  list_inactive(state);
   return inactive_.empty() || zone_.eliminate(inactive_);
 }
 

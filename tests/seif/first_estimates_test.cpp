@@ -74,7 +74,9 @@ void take_in(InformationState& state, const std::vector<Observation>& scan, bool
   }
   ASSERT_TRUE(solve_mean(state));
   if (again && !factors.empty()) {
-    replace_all(state, T_robot_sensor, std::vector(factors), factors);
+    subtract_all(state, factors);
+    follow_pose(state, factors.front().x0);
+    add_again(state, T_robot_sensor, factors);
     ASSERT_TRUE(solve_mean(state));
   }
   for (const Observation& z : scan) {

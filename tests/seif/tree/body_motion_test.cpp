@@ -82,6 +82,17 @@ TEST(BodyFit, EndsSideBySideByChanceAreNotOneCluster) {
   }
 }
 
+/// One pair of landmarks of two ends is as far apart after the closure as before it.
+TEST(BodyFit, EndsThatKeepADistanceByChanceAreNotOneCluster) {
+  BodyFit fit;
+  fit.begin(fit_near);
+  const Eigen::Vector2d beside(103.0, 6.0);  // five metres from body_places[1], before and after
+  for (const Eigen::Vector2d& p : body_places) fit.add(p, p);
+  fit.add(beside, beside + Eigen::Vector2d(5.0, -5.0));
+  fit.fit();
+  EXPECT_NE(fit.points()[1].cluster, fit.points()[4].cluster);
+}
+
 TEST(BodyFit, AGroupTellsItsOwnTurn) {
   BodyFit fit;
   fit.begin(fit_near);

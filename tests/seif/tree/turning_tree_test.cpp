@@ -110,6 +110,14 @@ struct TurningTree {
     return solver.solve(Eigen::MatrixXd::Identity(n, 3)).topRows<3>();
   }
 
+  /// Of the pose, by the latest solution. (3 x 3)
+  Eigen::Matrix3d covariance_by_window() const {
+    const WindowFactor& factor = tree.window_factor();
+    const Eigen::MatrixXd Y =
+        factor.L().triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(factor.size, 3));
+    return Y.transpose() * Y;
+  }
+
   InformationState state;
   CondensationTree tree;
 };
@@ -162,10 +170,53 @@ TEST(TurningTree, ThePoseIsKnownAsTheSumOfAllElementsSays) {
     }
     settle(it);
     const Eigen::Matrix3d expected = it.pose_covariance();
-    const WindowFactor& factor = it.tree.window_factor();
-    const Eigen::MatrixXd Y =
-        factor.L().triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(factor.size, 3));
-    EXPECT_LT((Y.transpose() * Y - expected).norm(), 1e-5 * expected.norm());
+    EXPECT_LT((it.covariance_by_window() - expected).norm(), 1e-5 * expected.norm());
+  }
+}
+
+/// What the zone knows is taken apart and put together again.
+TEST(TurningTree, CarryingToWhereEverythingIsChangesNothing) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points path = ring(15.0, 1.3);
+    test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
+    TurningTree it(drive.setup().start);
+    while (!drive.at_end()) {
+      drive.advance();
+      it.update(drive.odometry(), drive.scan());
+    }
+    settle(it);
+    const Pose2 pose = it.state.pose();
+    const Eigen::Matrix3d P = it.covariance_by_window();
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_TRUE(it.tree.carry(it.state));
+      ASSERT_EQ(it.tree.broken_invariant(it.state), std::nullopt);
+      ASSERT_TRUE(it.tree.solve_window(it.state));
+    }
+    EXPECT_NEAR(it.state.pose().x, pose.x, 1e-6);
+    EXPECT_NEAR(it.state.pose().y, pose.y, 1e-6);
+    EXPECT_NEAR(it.state.pose().theta, pose.theta, 1e-7);
+    EXPECT_LT((it.covariance_by_window() - P).norm(), 1e-5 * P.norm());
+  }
+}
+
+/// At every update, also while a plan is made.
+TEST(TurningTree, CarryingLeavesTheMeanWhereNothingPulls) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const Points path = ring(25.0, 1.4);
+    test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
+    TurningTree it(drive.setup().start);
+    while (!drive.at_end()) {
+      drive.advance();
+      it.update(drive.odometry(), drive.scan());
+      ASSERT_TRUE(it.tree.carry(it.state));
+      ASSERT_EQ(it.tree.broken_invariant(it.state), std::nullopt);
+    }
+    settle(it);
+    Eigen::VectorXd r = it.residual();
+    r.segment<4>(3).setZero();  // as above
+    EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-5);
   }
 }
 
