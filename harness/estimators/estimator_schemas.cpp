@@ -1,7 +1,5 @@
 #include "harness/estimators/estimator_schemas.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -9,6 +7,8 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "seif/make_estimator.hpp"
 
 namespace harness {
 
@@ -53,21 +53,11 @@ class DescribeOption {
   worlds::OptionValue& value_;
 };
 
-double number_in(const worlds::OptionValue& value) {
-  const auto* whole = std::get_if<std::int64_t>(&value);
-  return whole == nullptr ? std::get<double>(value) : static_cast<double>(*whole);
-}
-
 /// Refuses a number that is larger than the option that bounds it.
 void check_order(worlds::Fields& fields, const std::vector<seif::OptionSpec>& specs,
-                 const std::map<std::string, worlds::OptionValue>& options) {
+                 const seif::Options& options) {
   for (const seif::OptionSpec& spec : specs) {
-    if (spec.not_above.empty()) continue;
-    const double value = number_in(options.at(spec.key));
-    const double bound = number_in(options.at(spec.not_above));
-    if (value <= bound) continue;
-    fields.problem(spec.key, fmt::format("'{}' must be at most '{}', which is {}, not {}; set both", spec.key,
-                                         spec.not_above, bound, value));
+    if (const auto fault = seif::fault_of_order(spec, options)) fields.problem(spec.key, *fault);
   }
 }
 
