@@ -14,6 +14,7 @@ namespace {
 template <class... Parts>
 std::string text_of(const Parts&... parts) {
   std::ostringstream text;
+  text.precision(15);  // 1000000 and 0.1 as they are written
   text << std::boolalpha;
   (text << ... << parts);
   return text.str();

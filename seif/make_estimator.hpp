@@ -21,8 +21,8 @@ std::optional<std::string> fault_of_order(const OptionSpec& spec, const Options&
 /// the type does not have, and for a value that is not valid.
 Options complete_options(const EstimatorType& type, const Options& chosen);
 
-/// Throws std::invalid_argument if the registry has no estimator of this name, as complete_options() does, and for a
-/// start whose covariance is not positive definite.
+/// Throws std::invalid_argument if the registry has no estimator of this name, and as complete_options() does. The filter
+/// itself may refuse its setup.
 std::unique_ptr<Estimator> make_estimator(const Registry& registry, std::string_view name,
                                           const EstimatorSetup& setup, const Options& chosen = {});
 

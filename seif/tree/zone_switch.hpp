@@ -20,8 +20,8 @@ struct HeldLandmarks {
   std::vector<int> slots;
   std::vector<Eigen::Vector2d> at;  // p_world [m]
   double weight = 0.0;              // [1/m^2]
-  /// What the zone knows of them besides, before any landmark is eliminated (2n x 2n). Kept here, because weight is so
-  /// large that the zone's own numbers have lost it to rounding.
+  /// What the zone knows of them besides, before any landmark is eliminated (2n x 2n). Kept here, because `weight` is so
+  /// large that the zone's own numbers lose it to rounding.
   Eigen::MatrixXd Omega;
 };
 

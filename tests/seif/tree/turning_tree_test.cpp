@@ -133,6 +133,26 @@ Points ring(double radius, double rounds) {
 
 const Points serpentine{{0, 0}, {24, 0}, {24, 4}, {0, 4}, {0, 8}, {24, 8}, {24, 12}, {0, 12}, {0, 0}, {8, 6}};
 
+/// To the end of the drive; calls after_update(it) after each update.
+template <class AfterUpdate>
+void drive_all(TurningTree& it, test::PathDrive& drive, const AfterUpdate& after_update) {
+  while (!drive.at_end()) {
+    drive.advance();
+    it.update(drive.odometry(), drive.scan());
+    after_update(it);
+  }
+}
+
+void drive_all(TurningTree& it, test::PathDrive& drive) {
+  drive_all(it, drive, [](const TurningTree&) {});
+}
+
+void expect_no_pull(const TurningTree& it) {
+  Eigen::VectorXd r = it.residual();
+  r.segment<4>(3).setZero();  // the start points' places are so well known that only rounding is left
+  EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-5);  // one more observation changes r by about 1e3
+}
+
 /// After the drive, all messages are sent until nothing moves any more.
 void settle(TurningTree& it) {
   for (int k = 0; k < 10; ++k) ASSERT_TRUE(it.tree.solve_all(it.state));
@@ -145,15 +165,11 @@ TEST(TurningTree, TheMeanIsWhereNothingPulls) {
       SCOPED_TRACE(testing::Message() << "drive " << drives++);
       test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
       TurningTree it(drive.setup().start);
-      while (!drive.at_end()) {
-        drive.advance();
-        it.update(drive.odometry(), drive.scan());
-        ASSERT_EQ(it.tree.broken_invariant(it.state), std::nullopt);
-      }
+      drive_all(it, drive, [](const TurningTree& driven) {
+        ASSERT_EQ(driven.tree.broken_invariant(driven.state), std::nullopt);
+      });
       settle(it);
-      Eigen::VectorXd r = it.residual();
-      r.segment<4>(3).setZero();  // the start points' places are so well known that only rounding is left
-      EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-5);  // one more observation changes r by about 1e3
+      expect_no_pull(it);
     }
   }
 }
@@ -164,10 +180,7 @@ TEST(TurningTree, ThePoseIsKnownAsTheSumOfAllElementsSays) {
     const Points path = ring(15.0, 1.3);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
     TurningTree it(drive.setup().start);
-    while (!drive.at_end()) {
-      drive.advance();
-      it.update(drive.odometry(), drive.scan());
-    }
+    drive_all(it, drive);
     settle(it);
     const Eigen::Matrix3d expected = it.pose_covariance();
     EXPECT_LT((it.covariance_by_window() - expected).norm(), 1e-5 * expected.norm());
@@ -181,10 +194,7 @@ TEST(TurningTree, CarryingToWhereEverythingIsChangesNothing) {
     const Points path = ring(15.0, 1.3);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
     TurningTree it(drive.setup().start);
-    while (!drive.at_end()) {
-      drive.advance();
-      it.update(drive.odometry(), drive.scan());
-    }
+    drive_all(it, drive);
     settle(it);
     const Pose2 pose = it.state.pose();
     const Eigen::Matrix3d P = it.covariance_by_window();
@@ -207,16 +217,12 @@ TEST(TurningTree, CarryingLeavesTheMeanWhereNothingPulls) {
     const Points path = ring(25.0, 1.4);
     test::PathDrive drive(test::landmarks_along(path, seed), path, seed);
     TurningTree it(drive.setup().start);
-    while (!drive.at_end()) {
-      drive.advance();
-      it.update(drive.odometry(), drive.scan());
-      ASSERT_TRUE(it.tree.carry(it.state));
-      ASSERT_EQ(it.tree.broken_invariant(it.state), std::nullopt);
-    }
+    drive_all(it, drive, [](TurningTree& driven) {
+      ASSERT_TRUE(driven.tree.carry(driven.state));
+      ASSERT_EQ(driven.tree.broken_invariant(driven.state), std::nullopt);
+    });
     settle(it);
-    Eigen::VectorXd r = it.residual();
-    r.segment<4>(3).setZero();  // as above
-    EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-5);
+    expect_no_pull(it);
   }
 }
 
@@ -232,11 +238,7 @@ TEST(TurningTree, WhereTheWholeLiesChangesNothing) {
     start.mean = frame * start.mean;
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(frame.theta).toRotationMatrix();
     start.covariance.topLeftCorner<2, 2>() = R * start.covariance.topLeftCorner<2, 2>() * R.transpose();
-    TurningTree& it = trees.emplace_back(start);
-    while (!drive.at_end()) {
-      drive.advance();
-      it.update(drive.odometry(), drive.scan());
-    }
+    drive_all(trees.emplace_back(start), drive);
   }
   double apart = 0.0;
   for (int slot = 2; slot < trees[0].state.landmark_count(); ++slot) {
