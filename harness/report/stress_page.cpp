@@ -88,8 +88,8 @@ Table whole_of(const Json& json) {
 
 Table estimators_of(const Json& json) {
   Table table{"The estimators",
-              {{"landmarks, estimator", "in map", "state [KiB]", "aligned [m]", "x reference", "NEES pose",
-                "NEES map"}},
+              {{"landmarks, estimator", "in map", "state [KiB]", "read map [ms]", "aligned [m]",
+                "x reference", "NEES pose", "NEES map"}},
               {}};
   for (const Json& row : json.at("rows")) {
     for (const auto& [name, estimator] : row.at("estimators").items()) {
@@ -100,6 +100,7 @@ Table estimators_of(const Json& json) {
       }
       table.rows.push_back({first, cell(estimator.at("landmarks"), 0),
                             cell(estimator.at("memory_bytes"), 1, 1.0 / 1024),
+                            cell(estimator.value("map_read_s", Json()), 1, 1e3),
                             cell(estimator.at("landmark_rmse_aligned_m"), 4),
                             cell(estimator.value("aligned_over_reference", Json()), 2),
                             cell(estimator.at("nees_pose"), 2), cell(estimator.at("nees_landmark"), 2)});

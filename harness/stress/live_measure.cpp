@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,8 @@
 namespace harness {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 void start_at(worlds::World& world, const seif::Pose2& T_world_robot) {
   world.robot.start = {{T_world_robot.x, T_world_robot.y}, T_world_robot.theta};
@@ -31,7 +35,7 @@ LivePlace live_place(const StressPlan& plan, const worlds::World& world, std::in
   LivePlace place{.world = world, .updates = updates, .folder = plan.folder / fmt::format("{}", number + 1)};
   place.world.duration = static_cast<double>(updates) / world.landmark_sensor.rate;
   if (plan.world.pattern == StressPattern::forest) place.world.drive.mode = worlds::DriveMode::explore;
-  place.is_scored = number + 1 == plan.places;
+  place.has_covariances = number + 1 == plan.places && plan.world.landmarks <= plan.covariances_up_to;
   place.quiet = plan.quiet;
   return place;
 }
@@ -70,9 +74,9 @@ void describe(const LiveSamples& samples, double scan_rate, StressRow& row) {
   row.counts = samples.counts;
 }
 
-std::optional<double> aligned_rmse(const seif::Estimator& filter, const worlds::World& world) {
+std::optional<double> aligned_rmse(std::span<const seif::LandmarkEstimate> map, const worlds::World& world) {
   std::vector<PointPair> pairs;
-  for (const seif::LandmarkEstimate& landmark : filter.map()) {
+  for (const seif::LandmarkEstimate& landmark : map) {
     pairs.push_back(
         {landmark.mean, world.landmarks.at(static_cast<std::size_t>(landmark.landmark)).position});
   }
@@ -89,11 +93,14 @@ StressEstimator described(const StressPlan& plan, const LiveEstimator& estimator
     result.blocks = percentiles(samples.blocks);
   }
   if (!estimator.failure.empty()) return result;
-  result.landmarks = static_cast<std::int64_t>(estimator.filter->map().size());
+  const Clock::time_point begin = Clock::now();
+  const std::vector<seif::LandmarkEstimate> map = estimator.filter->map();
+  result.map_read_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  result.landmarks = std::ssize(map);
   result.bytes = static_cast<double>(estimator.filter->memory_bytes());
-  result.map_rmse = aligned_rmse(*estimator.filter, world);
-  result.nees_pose = samples.last.nees_pose;
-  result.nees_landmark = samples.last.nees_landmark;
+  result.map_rmse = aligned_rmse(map, world);
+  result.nees_pose = samples.nees_pose;
+  result.nees_landmark = samples.nees_landmark;
   return result;
 }
 
@@ -125,6 +132,7 @@ void measure_live(const StressPlan& plan, const worlds::World& world, WarmStart&
       its_plan.folder /= "none";
     }
     LiveSamples samples = measure_places(its_plan, world, warm, alone, stop);
+    if (stop) return;
     describe(samples, world.landmark_sensor.rate, row);
     if (!alone.estimators.empty())
       measured.push_back(described(plan, alone.estimators.front(), std::move(samples), world));

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "harness/recording/recorder.hpp"
+#include "harness/score/score.hpp"
 #include "harness/simulation/simulated_stream.hpp"
 #include "harness/stress/resident_memory.hpp"
 #include "harness/stress/timed_simulator.hpp"
@@ -52,7 +53,7 @@ class TimedScans final : public Stream {
   LiveSamples& samples_;
 };
 
-/// Records the cost of each update and the estimator's score at the end.
+/// Records the cost of each update and the estimator's latest scores.
 class UpdateMeter final : public RunListener {
  public:
   explicit UpdateMeter(LiveSamples& samples) : samples_(samples) {}
@@ -62,8 +63,14 @@ class UpdateMeter final : public RunListener {
   void update(std::size_t, const UpdateRecord& record) override {
     samples_.update_us.push_back(record.times.update);
     samples_.blocks.push_back(static_cast<double>(record.blocks_touched));
+    samples_.nees_pose.reset();
+    if (record.est_covariance && record.true_pose)
+      samples_.nees_pose = nees(pose_error(record.est_pose, *record.true_pose), *record.est_covariance);
   }
-  void consistency(std::size_t, const ConsistencyRecord& record) override { samples_.last = record; }
+  void consistency(std::size_t, const ConsistencyRecord& record) override {
+    samples_.nees_pose = record.nees_pose;
+    samples_.nees_landmark = record.nees_landmark;
+  }
 
  private:
   LiveSamples& samples_;
@@ -140,7 +147,8 @@ void LiveSamples::add(const LiveSamples& other) {
   process_bytes = other.process_bytes;
   growth_bytes += other.growth_bytes;
   build_s = other.build_s;
-  last = other.last;
+  nees_pose = other.nees_pose;
+  nees_landmark = other.nees_landmark;
   T_world_robot = other.T_world_robot;
 }
 
@@ -176,7 +184,7 @@ LiveSamples measure_place(const LivePlace& place, Believers& believers,
   samples.counts = simulator.counts();
   const sim::RobotState robot = simulator.robot();
   samples.T_world_robot = {robot.position.x(), robot.position.y(), robot.heading};
-  if (place.is_scored) loop.score_consistency();
+  if (place.has_covariances && !stop) loop.score_consistency();
   recorder.close();
   find_rest(samples);
   return samples;

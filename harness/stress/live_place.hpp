@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "harness/run/live_loop.hpp"
@@ -35,7 +36,8 @@ struct LiveSamples {
   double process_bytes = 0.0;  // resident at the end, with the simulator
   double growth_bytes = 0.0;   // increase of process_bytes after the first fifth
   double build_s = 0.0;        // [s] time to build the simulator
-  ConsistencyRecord last;      // scores at the end, if asked for
+  std::optional<double> nees_pose;      // [-] at the end, if the filter can tell it
+  std::optional<double> nees_landmark;  // [-] at the end, if asked for
   seif::Pose2 T_world_robot;   // robot's pose at the end
 };
 
@@ -43,7 +45,7 @@ struct LivePlace {
   worlds::World world;           // the robot starts at this place
   std::int64_t updates = 0;      // [-] to be measured
   std::filesystem::path folder;  // for the record
-  bool is_scored = false;        // score at the end
+  bool has_covariances = false;  // landmarks get a NEES at the end
   bool quiet = false;
 };
 

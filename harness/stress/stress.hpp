@@ -27,6 +27,9 @@ struct StressPlan {
   double slowest_ms = 50.0;  // [ms] limit of the mean update time in a warm start
   std::map<std::string, std::int64_t> most_landmarks = {
       {"ekf", 5'000}, {"eif", 500}, {"batch", 50'000}};  // by estimator
+  /// [-] landmarks of a map up to which landmarks get a NEES. Their covariances need a factor of the filter's
+  /// whole matrix: with a million landmarks it takes more than 20 GB.
+  std::int64_t covariances_up_to = 200'000;
   /// The others' map errors are compared with that of this estimator. It runs on the same stream, and has no
   /// times and no blocks. Empty: none.
   std::string reference;
@@ -44,10 +47,11 @@ struct StressEstimator {
   std::optional<Percentiles> update_us;
   std::optional<Percentiles> blocks;
   double bytes = 0.0;                    // [byte] of the estimator's state
+  std::optional<double> map_read_s;      // [s] to read the mean of every landmark
   std::optional<double> map_rmse;        // [m] aligned
   std::optional<double> over_reference;  // [-] map_rmse divided by that of the reference
   std::optional<double> nees_pose;       // [-]
-  std::optional<double> nees_landmark;   // [-]
+  std::optional<double> nees_landmark;   // [-] missing for a map above covariances_up_to
 };
 
 /// The results for one number of landmarks.

@@ -34,6 +34,7 @@ Json estimator_json(const StressEstimator& estimator) {
           {"update_us", percentiles_json(estimator.update_us)},
           {"blocks_touched", percentiles_json(estimator.blocks)},
           {"memory_bytes", estimator.bytes},
+          {"map_read_s", number(estimator.map_read_s)},
           {"landmark_rmse_aligned_m", number(estimator.map_rmse)},
           {"aligned_over_reference", number(estimator.over_reference)},
           {"nees_pose", number(estimator.nees_pose)},
@@ -124,6 +125,7 @@ TextRow estimator_row(std::int64_t landmarks, const StressEstimator& estimator) 
           part(estimator.blocks, &Percentiles::p99),
           part(estimator.blocks, &Percentiles::max),
           ran ? number_cell(by_landmark, 0) : "-",
+          number_cell(estimator.map_read_s ? std::optional(1e3 * *estimator.map_read_s) : std::nullopt, 1),
           number_cell(estimator.map_rmse, 4),
           number_cell(estimator.over_reference, 2),
           number_cell(estimator.nees_pose, 2),
@@ -132,7 +134,7 @@ TextRow estimator_row(std::int64_t landmarks, const StressEstimator& estimator) 
 
 std::string estimator_table(const StressResult& result) {
   std::vector<TextRow> table = {{"landmarks", "estimator", "in map", "blocks p50", "p99", "max",
-                                 "[B]/landmark", "aligned [m]", "x reference", "NEES pose", "NEES map"}};
+                                 "[B]/landmark", "read map [ms]", "aligned [m]", "x reference", "NEES pose", "NEES map"}};
   std::string skipped;
   for (const StressRow& row : result.rows) {
     for (const StressEstimator& estimator : row.estimators) {

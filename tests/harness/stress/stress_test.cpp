@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -48,8 +49,35 @@ TEST(Stress, MeasuresEveryStageOfFiltersThatHoldTheWholeMap) {
       EXPECT_LT(estimator.map_rmse.value(), 0.5);
       EXPECT_GT(estimator.nees_pose.value(), 0.0);
       EXPECT_GT(estimator.nees_landmark.value(), 0.0);
+      EXPECT_GT(estimator.map_read_s.value(), 0.0);
     }
   }
+}
+
+TEST(Stress, AMapThatIsTooLargeForCovariancesHasTheNeesOfThePoseAlone) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  plan.covariances_up_to = 40;
+  const StressResult result = stress(plan, test::test_registry());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const StressEstimator& small = result.rows[0].estimators[i];
+    const StressEstimator& large = result.rows[1].estimators[i];
+    EXPECT_TRUE(small.nees_landmark) << small.name;
+    EXPECT_FALSE(large.nees_landmark) << large.name;
+    EXPECT_GT(large.nees_pose.value(), 0.0) << large.name;
+    EXPECT_GT(large.map_rmse.value(), 0.0) << large.name;
+  }
+}
+
+TEST(Stress, AnInterruptedRowIsNotScored) {
+  const TemporaryFolder folder;
+  StressPlan plan = small_plan(folder);
+  std::atomic<bool> stop = false;
+  int updates = 0;
+  plan.after_each_update = [&] { stop = ++updates == 5; };
+  const StressRow row = stress_row(plan, test::test_registry(), stop);
+  EXPECT_EQ(updates, 5);
+  EXPECT_TRUE(row.estimators.empty());
 }
 
 TEST(Stress, RecordsWhatItMeasures) {
