@@ -37,6 +37,21 @@ PredictedPose predict_pose(const Pose2& T_world_robot, const Odometry& odometry)
   return predicted;
 }
 
+Odometry compose(const Odometry& first, const Odometry& second) {
+  const PredictedPose predicted = predict_pose(first.T_previous_current, second);
+  const Eigen::Matrix3d& F = predicted.J_wrt_pose;
+  const Eigen::Matrix3d& L = predicted.noise_factor;
+  return {second.t, predicted.pose, F * first.covariance * F.transpose() + L * L.transpose()};
+}
+
+void move_pose(Eigen::MatrixXd& Sigma, const Pose2& pose, const Odometry& motion) {
+  const PredictedPose predicted = predict_pose(pose, motion);
+  const Eigen::Matrix3d& L = predicted.noise_factor;
+  Sigma.topRows<3>() = (predicted.J_wrt_pose * Sigma.topRows<3>()).eval();
+  Sigma.leftCols<3>() = (Sigma.leftCols<3>() * predicted.J_wrt_pose.transpose()).eval();
+  Sigma.topLeftCorner<3, 3>() += L * L.transpose();
+}
+
 PredictedObservation predict_observation(const Pose2& T_world_robot, const Pose2& T_robot_sensor,
                                          const Eigen::Vector2d& p_world_landmark) {
   const Pose2 T_world_sensor = T_world_robot * T_robot_sensor;

@@ -21,6 +21,13 @@ struct PredictedPose {
 /// zero.
 PredictedPose predict_pose(const Pose2& T_world_robot, const Odometry& odometry);
 
+/// Two successive motions as one, with the covariance to first order.
+Odometry compose(const Odometry& first, const Odometry& second);
+
+/// `Sigma` is the covariance of a pose and of landmarks, [x y theta m1x m1y ...]. Moves its pose by a motion,
+/// to first order. (3+2k x 3+2k)
+void move_pose(Eigen::MatrixXd& Sigma, const Pose2& pose, const Odometry& motion);
+
 /// The expected observation h(x, m), and its Jacobians with respect to pose and landmark; eqs. (15), (23).
 struct PredictedObservation {
   Eigen::Vector2d z = Eigen::Vector2d::Zero();               // range [m], bearing [rad]

@@ -117,6 +117,9 @@ class Fields {
   /// Adds a problem with the value of a key (empty: with the whole section). Only the reader uses it.
   virtual void problem(std::string_view key, std::string message) = 0;
 
+  /// Keys that nobody describes are no problem in this section. Only the reader uses it.
+  virtual void accept_unknown_keys() {}
+
  protected:
   using Value = std::variant<bool*, std::int64_t*, double*, std::string*, Eigen::Vector2d*, Eigen::Vector3d*,
                              std::vector<Eigen::Vector2d>*, std::vector<std::string>*>;

@@ -80,9 +80,13 @@ std::string sentence(std::string text) {
 }
 
 /// A vertical bar would end the table cell, so it is escaped.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
 }
 
 /// Collects the rows of one section. The tables of inner sections follow as separate text.
@@ -199,7 +203,8 @@ void TableWriter::variant(std::string_view key, std::string& kind, const std::ve
 /// An estimator schema without options for each type.
 EstimatorSchemas without_options(const EstimatorSchemas& estimators) {
   EstimatorSchemas bare;
-  for (const auto& [type, _] : estimators) bare[type] = [](Fields&, std::map<std::string, OptionValue>&) {};
+  for (const auto& [type, _] : estimators.types)
+    bare.types[type] = [](Fields&, std::map<std::string, OptionValue>&) {};
   return bare;
 }
 

@@ -10,6 +10,7 @@
 #include "worlds/check.hpp"
 #include "worlds/commands.hpp"
 #include "worlds/describe.hpp"
+#include "worlds/gallery.hpp"
 #include "worlds/limits.hpp"
 #include "worlds/merge.hpp"
 #include "worlds/path.hpp"
@@ -26,6 +27,16 @@ Node text_node(std::string text, const Location& where) {
   return node;
 }
 
+/// A path as the file means it that names it: relative to its folder. In an override, `file` stands for that file.
+std::string full_path(const std::filesystem::path& file, const Node& node) {
+  const bool is_in_a_file = node.where.line > 0;
+  const std::filesystem::path named_in = is_in_a_file ? std::filesystem::path(*node.where.source) : file;
+  const std::filesystem::path relative = named_in.parent_path() / node.text;
+  std::error_code error;
+  const std::filesystem::path full = std::filesystem::weakly_canonical(relative, error);
+  return error ? relative.string() : full.string();
+}
+
 /// Lays out the path of the drive, or reads its commands. The document gets the absolute path of the commands'
 /// file, since the document may move to another folder.
 void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Node& document,
@@ -38,12 +49,7 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
   }
   if (drive.mode == DriveMode::commands) {
     Node* node = document.find("drive")->find("file");
-    const bool is_in_a_file = node->where.line > 0;  // not in an override
-    const std::filesystem::path named_in = is_in_a_file ? std::filesystem::path(*node->where.source) : file;
-    const std::filesystem::path relative = named_in.parent_path() / drive.commands_file;
-    std::error_code error;
-    const std::filesystem::path full = std::filesystem::weakly_canonical(relative, error);
-    drive.commands_file = error ? relative.string() : full.string();
+    drive.commands_file = full_path(file, *node);
     *node = text_node(drive.commands_file, node->where);
     std::vector<Problem> found;
     drive.commands = read_commands(drive.commands_file, found);
@@ -121,15 +127,27 @@ void set_version(Node& document, std::string_view version) {
 
 }  // namespace
 
-LoadResult load_world(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+void find_libraries(const std::filesystem::path& file, Node& document) {
+  Node* estimators = document.find("estimators");
+  if (estimators == nullptr) return;
+  for (Node::Entry& entry : estimators->entries) {
+    Node* library = entry.value.find("library");
+    if (library != nullptr && library->kind == Node::Kind::scalar && !library->text.empty())
+      *library = text_node(full_path(file, *library), library->where);
+  }
+}
+
+LoadResult load_world(const std::filesystem::path& name, const std::vector<std::string>& overrides,
                       const EstimatorSchemas& estimators, std::string_view version,
                       const FurtherCheck& check) {
+  const std::filesystem::path file = find_world(name);
   LoadResult result;
   std::vector<Problem>& problems = result.problems;
   std::optional<Node> document = read_document_with_overrides(file, overrides, problems);
   if (document && document->kind == Node::Kind::map) {
     WorldFile world_file;
     world_file.world.name = file.stem().string();
+    find_libraries(file, *document);
     read_fields(
         *document, [&](Fields& fields) { describe_world(fields, world_file, estimators); }, problems);
     prepare_drive(file, world_file, *document, problems);

@@ -178,6 +178,7 @@ class Reader : public Fields {
 
   /// To be called after all keys have been described.
   void refuse_unknown_keys() {
+    if (accepts_unknown_keys_) return;
     const std::vector<std::string> known(known_.begin(), known_.end());
     for (const Node::Entry& entry : map_.entries) {
       if (known_.count(entry.key) > 0) continue;
@@ -249,6 +250,8 @@ class Reader : public Fields {
     problems_.push_back(
         {node != nullptr ? node->where : map_.where, std::move(message), key.empty() ? path_ : path_of(key)});
   }
+
+  void accept_unknown_keys() override { accepts_unknown_keys_ = true; }
 
  protected:
   void field(const FieldSpec& spec, Value value) override {
@@ -464,6 +467,7 @@ class Reader : public Fields {
   std::string_view unit_;  // of keys without a unit of their own: the section's key tells it
   std::vector<Problem>& problems_;
   std::size_t problems_before_;
+  bool accepts_unknown_keys_ = false;
   std::set<std::string, std::less<>> known_;
   std::map<std::string, std::string, std::less<>> foreign_;  // keys of this section's other kinds -> message
 };

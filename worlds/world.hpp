@@ -23,7 +23,8 @@ using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
 /// An estimator to run, under its own name. Only the estimator knows the meaning of its options.
 struct EstimatorChoice {
   std::string name;
-  std::string type;                    // the registered kind; by default the name
+  std::string type;                    // the kind; by default the name
+  std::string library;                 // path of the plug-in that has the type; empty: the program knows it
   double odometry_sd_factor = 1.0;     // [-] odometry noise that it assumes / noise that the sensor reports
   double observation_sd_factor = 1.0;  // [-] the same for observations
   std::map<std::string, OptionValue> options;  // a value for every option of the type

@@ -24,7 +24,8 @@ constexpr std::string_view one_seed =
 constexpr std::string_view has_seed =
     "a run has its seed from the time when it ran: seifbed run WORLD --seed 7";
 
-constexpr std::array<Hint, 20> hints = {{
+constexpr std::array<Hint, 21> hints = {{
+    {"", "--plugin", "it stands before the command: seifbed --plugin ./libmine.so run WORLD"},
     {"", "--limits", "it stands before the command: seifbed --limits 4 run WORLD"},
     {"run", "--seeds", one_seed},
     {"replay", "--seeds", "a log is recorded; --seed is of the estimators that draw"},
@@ -68,6 +69,11 @@ std::string unknown_words(const CLI::App& command, const std::string& name,
                      worlds::suggestion(written, option_names(command)));
 }
 
+/// Whether the reason is about an option that stands before the command.
+bool is_of_the_program(std::string_view reason) {
+  return reason.starts_with("--limits") || reason.starts_with("--plugin");
+}
+
 std::string reason_of(const CLI::App& app, const CLI::App* command, const std::string& name,
                       const CLI::ParseError& error) {
   const int kind = error.get_exit_code();
@@ -83,7 +89,7 @@ std::string reason_of(const CLI::App& app, const CLI::App* command, const std::s
   if (is_about_words && !command->remaining().empty())
     return unknown_words(*command, name, command->remaining());
   const std::string reason = error.what();
-  return fmt::format("{}: {}", reason.starts_with("--limits") ? "seifbed" : name, reason);
+  return fmt::format("{}: {}", is_of_the_program(reason) ? "seifbed" : name, reason);
 }
 
 }  // namespace

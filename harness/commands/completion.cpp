@@ -63,7 +63,7 @@ std::string bash_script(const std::vector<CommandEntry>& table) {
       "  local command= options= wanted= has_value= i\n"
       "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
       "    case ${COMP_WORDS[i]} in\n"
-      "      --limits) ((++i)) ;;\n"
+      "      --limits|--plugin) ((++i)) ;;\n"
       "      -*) ;;\n"
       "      *) command=${COMP_WORDS[i]}; break ;;\n"
       "    esac\n"

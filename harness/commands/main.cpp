@@ -6,9 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "harness/commands/call_errors.hpp"
 #include "harness/commands/commands.hpp"
+#include "harness/estimators/plugins.hpp"
 #include "harness/estimators/registry.hpp"
 #include "harness/terminal/checks.hpp"
 #include "harness/terminal/messages.hpp"
@@ -23,6 +25,11 @@ void raise_limits(double factor) {
   } catch (const std::invalid_argument& error) {
     throw CLI::ValidationError("--limits", error.what());
   }
+}
+
+/// In this process and in those that it starts.
+void use_plugin(const std::string& library, seif::Registry& registry) {
+  if (harness::pass_on_plugin(library)) harness::add_plugin(library, registry);
 }
 
 void add_commands(const harness::CommandLine& line) {
@@ -48,7 +55,8 @@ void add_commands(const harness::CommandLine& line) {
 }
 
 int call(int argc, char** argv) {
-  const seif::Registry registry = harness::known_estimators();
+  seif::Registry registry = harness::known_estimators();
+  harness::add_plugins_of_environment(registry);
   CLI::App app("A robot testbed: worlds are simulated, estimators run live in them and are scored.",
                "seifbed");
   app.set_version_flag("--version", fmt::format("seifbed {}", harness::program_version()),
@@ -59,6 +67,17 @@ int call(int argc, char** argv) {
          "Let files ask for so many times more than usual: landmarks, values, bytes, tries. It stands before "
          "the command: seifbed --limits 4 run WORLD")
       ->check(harness::number_between(1.0, 100.0));
+  app.add_option_function<std::vector<std::string>>(
+         "--plugin",
+         [&registry](const std::vector<std::string>& libraries) {
+           for (const std::string& library : libraries) use_plugin(library, registry);
+         },
+         "Load estimators of your own from a shared library (docs/plugins.md). It stands before the command, "
+         "and may "
+         "stand several times: seifbed --plugin ./libmine.so run WORLD")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.footer("Each command says more: seifbed run --help, or seifbed help run");
   int exit_code = 0;
   add_commands({app, registry, exit_code});

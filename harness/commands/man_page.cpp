@@ -61,7 +61,8 @@ std::string man_page(const std::vector<CommandEntry>& table) {
       "seifbed \\- {}\n"
       ".SH SYNOPSIS\n"
       ".B seifbed\n"
-      "[\\fB\\-\\-limits\\fR \\fIN\\fR] \\fICOMMAND\\fR [\\fIOPTION\\fR ...]\n"
+      "[\\fB\\-\\-limits\\fR \\fIN\\fR] [\\fB\\-\\-plugin\\fR \\fIFILE\\fR ...] \\fICOMMAND\\fR "
+      "[\\fIOPTION\\fR ...]\n"
       ".SH OPTIONS\n",
       roff(program_version()), roff(table.front().help));
   for (const OptionEntry& option : table.front().options) text += option_text(option);
@@ -76,6 +77,7 @@ std::string man_page(const std::vector<CommandEntry>& table) {
          ".TP\n130\nInterrupted; what there is was written.\n"
          ".SH ENVIRONMENT\n"
          ".TP\n\\fBNO_COLOR\\fR\nIf it is not empty, messages have no colours.\n"
+         ".TP\n\\fBSEIFBED_PLUGINS\\fR\nPlug-ins that every command loads; paths with ':' between them.\n"
          ".TP\n\\fBTMPDIR\\fR\nWhere temporary files are; by default /tmp.\n";
 }
 

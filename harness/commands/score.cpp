@@ -16,6 +16,7 @@
 #include "harness/run/reference.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/score/details.hpp"
+#include "harness/score/foreign.hpp"
 #include "harness/score/scoreboard.hpp"
 #include "harness/terminal/checks.hpp"
 #include "harness/terminal/messages.hpp"
@@ -34,6 +35,8 @@ struct ScoreArguments {
   bool every_update = false;
   bool no_replay = false;
   bool json = false;
+  ForeignFiles foreign;       // instead of the folder
+  double rpe_interval = 1.0;  // [s] of the foreign files
 };
 
 /// Rebuilds scores by a replay into an empty folder. There are no such scores if the replay differs from the
@@ -118,7 +121,29 @@ int score(const ScoreArguments& arguments, const seif::Registry& registry) {
   return code;
 }
 
+bool is_foreign(const ScoreArguments& arguments) {
+  return !arguments.foreign.trajectory.empty() || !arguments.foreign.map.empty();
+}
+
+int score_foreign_files(const ScoreArguments& arguments) {
+  const ForeignFiles& files = arguments.foreign;
+  if (files.truth.empty() && !files.trajectory.empty())
+    throw BadInput("score: --trajectory needs --truth, the folder or the file of the true poses");
+  if (files.truth.empty() && files.landmarks.empty())
+    throw BadInput(
+        "score: --map needs --landmarks, the file of the true landmarks, or --truth, a folder with one");
+  if (!files.map.empty() && files.landmarks.empty() && !std::filesystem::is_directory(files.truth))
+    throw BadInput("score: --map needs --landmarks, because --truth is no folder");
+  const ForeignScore scored = score_foreign(files, arguments.rpe_interval);
+  if (arguments.json) return print_all(to_json(scored), 0);
+  print_board(foreign_board(scored));
+  return 0;
+}
+
 int score_any(ScoreArguments arguments, const seif::Registry& registry) {
+  if (is_foreign(arguments)) return score_foreign_files(arguments);
+  if (arguments.folder.empty())
+    throw BadInput("score: RUN is missing, or --trajectory and --truth of another program's result");
   const TemporaryFolder log;
   const TemporaryFolder whole;
   if (is_unfinished(arguments.folder)) {
@@ -126,6 +151,29 @@ int score_any(ScoreArguments arguments, const seif::Registry& registry) {
     arguments.folder = whole.path();
   }
   return score(arguments, registry);
+}
+
+/// What another program has estimated, instead of a run.
+void add_foreign_options(CLI::App& command, ScoreArguments& arguments) {
+  ForeignFiles& files = arguments.foreign;
+  const std::vector<CLI::Option*> options = {
+      command.add_option(
+          "--trajectory", files.trajectory,
+          "Instead of RUN: the trajectory of another program, as TUM, or as CSV with t,x,y,theta and "
+          "perhaps cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt"),
+      command.add_option(
+          "--map", files.map,
+          "The map of another program, as CSV with landmark,x,y and perhaps cov_xx,cov_xy,cov_yy"),
+      command.add_option("--truth", files.truth,
+                         "The true poses: the folder of a log or of a run, its truth.csv, or a TUM file"),
+      command.add_option("--landmarks", files.landmarks,
+                         "The true landmarks, as CSV with landmark,x,y; by default those of the folder")};
+  for (CLI::Option* option : options) option->type_name("FILE")->excludes(command.get_option("RUN"));
+  command
+      .add_option("--rpe-s", arguments.rpe_interval,
+                  "Time of the relative pose error of --trajectory [s]; 1 by default")
+      ->check(positive_number(longest_time))
+      ->needs(options.front());
 }
 
 }  // namespace
@@ -138,10 +186,11 @@ void add_score(CommandLine line) {
       "  seifbed score runs/loop-1 --rpe-m 1,10,100 --away-s 60\n"
       "  seifbed score runs/report2002-1 --every-update --json | jq .estimators.ekf.nees_pose_inside\n"
       "  seifbed score runs/courtyard-1 --reference batch,mrpt_ekf\n"
+      "  seifbed score --trajectory est.tum --map map.csv --truth runs/courtyard-1\n"
       "Nothing is simulated; innovations and joint covariances are rebuilt by a replay. What the scores mean "
       "is described in docs/scores.md.");
   auto arguments = std::make_shared<ScoreArguments>();
-  command->add_option("RUN", arguments->folder, "Folder of a run or of a replay")->required();
+  command->add_option("RUN", arguments->folder, "Folder of a run or of a replay");
   command
       ->add_option("--rpe-m", arguments->details.distances,
                    "Distances of the relative pose error along the path [m]; by default 1,5,10")
@@ -169,6 +218,7 @@ void add_score(CommandLine line) {
       ->add_flag("--no-replay", arguments->no_replay,
                  "Leave out what only a replay can tell: NIS, and NEES of landmarks as seen from the robot")
       ->excludes(every_update);
+  add_foreign_options(*command, *arguments);
   command->add_flag("--json", arguments->json, "Print it as JSON");
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] { return score_any(*arguments, registry); });

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "harness/estimators/plugins.hpp"
 #include "seif/make_estimator.hpp"
 
 namespace harness {
@@ -61,20 +62,25 @@ void check_order(worlds::Fields& fields, const std::vector<seif::OptionSpec>& sp
   }
 }
 
-}  // namespace
-
-worlds::EstimatorSchemas estimator_schemas(const seif::Registry& registry) {
-  worlds::EstimatorSchemas schemas;
+worlds::EstimatorTypes types_of(const seif::Registry& registry) {
+  worlds::EstimatorTypes types;
   for (const seif::EstimatorType& type : registry.types()) {
-    schemas[type.name] = [specs = type.options](worlds::Fields& fields,
-                                                std::map<std::string, worlds::OptionValue>& options) {
+    types[type.name] = [specs = type.options](worlds::Fields& fields,
+                                              std::map<std::string, worlds::OptionValue>& options) {
       for (const seif::OptionSpec& spec : specs) {
         std::visit(DescribeOption(fields, spec, options[spec.key]), spec.fallback);
       }
       if (fields.sound()) check_order(fields, specs, options);
     };
   }
-  return schemas;
+  return types;
+}
+
+}  // namespace
+
+worlds::EstimatorSchemas estimator_schemas(const seif::Registry& registry) {
+  return {.types = types_of(registry),
+          .of_library = [](const std::string& library) { return types_of(plugin_estimators(library)); }};
 }
 
 }  // namespace harness

@@ -1,4 +1,4 @@
-// The options of the registered estimators, for the world loader.
+// The options of the registered estimators and of those in plug-ins, for the world loader.
 #pragma once
 
 #include "seif/registry.hpp"

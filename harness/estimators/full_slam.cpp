@@ -277,21 +277,6 @@ Eigen::SparseMatrix<double> refine(Unknowns& unknowns, ceres::Problem& problem) 
 
 }  // namespace
 
-seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second) {
-  const seif::PredictedPose predicted = predict_pose(first.T_previous_current, second);
-  const Eigen::Matrix3d& F = predicted.J_wrt_pose;
-  const Eigen::Matrix3d& L = predicted.noise_factor;
-  return {second.t, predicted.pose, F * first.covariance * F.transpose() + L * L.transpose()};
-}
-
-void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odometry& motion) {
-  const seif::PredictedPose predicted = predict_pose(pose, motion);
-  const Eigen::Matrix3d& L = predicted.noise_factor;
-  Sigma.topRows<3>() = (predicted.J_wrt_pose * Sigma.topRows<3>()).eval();
-  Sigma.leftCols<3>() = (Sigma.leftCols<3>() * predicted.J_wrt_pose.transpose()).eval();
-  Sigma.topLeftCorner<3, 3>() += L * L.transpose();
-}
-
 Eigen::Matrix3d information_of_motion(const Eigen::Matrix3d& covariance) {
   const Eigen::Matrix3d W = whitening_of_motion(covariance);
   return W.transpose() * W;

@@ -38,13 +38,6 @@ struct FullSlamOptimum {
   Eigen::SparseMatrix<double> Omega;       // J' J at the optimum, lower triangle; poses, then landmarks
 };
 
-/// Two successive motions as one, with the covariance to first order.
-seif::Odometry compose(const seif::Odometry& first, const seif::Odometry& second);
-
-/// `Sigma` is the covariance of a pose and of landmarks, [x y theta m1x m1y ...]. Moves its pose by a motion,
-/// to first order. (3+2k x 3+2k)
-void move_pose(Eigen::MatrixXd& Sigma, const seif::Pose2& pose, const seif::Odometry& motion);
-
 /// True if a motion is so certain that observations after it can count as made before it.
 bool is_certain(const seif::Odometry& motion);
 

@@ -1,168 +1,29 @@
 #include "harness/estimators/mrpt_ekf.hpp"
 
-#include <dlfcn.h>
-#include <fmt/format.h>
+#include <system_error>
 
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
-
-#include "harness/estimators/full_slam.hpp"
+#include "harness/estimators/plugins.hpp"
 #include "harness/files/bad_input.hpp"
-#include "seif/marginals.hpp"
+#include "harness/peers/mrpt_ekf_type.hpp"
 
 namespace harness {
 
-namespace {
-
-peers::Gaussian gaussian_of(const seif::Pose2& pose, const Eigen::Matrix3d& covariance) {
-  peers::Gaussian gaussian{.mean = {pose.x, pose.y, pose.theta}, .covariance = {}};
-  Eigen::Map<Eigen::Matrix3d>(gaussian.covariance.data()) = covariance;
-  return gaussian;
+std::filesystem::path peers_module() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path installed =
+      program.parent_path().parent_path() / SEIFBED_INSTALLED_PEERS_MODULE;
+  return std::filesystem::exists(installed, error) ? installed : SEIFBED_PEERS_MODULE;
 }
-
-peers::SensorNoise noise_of(const seif::Scan& scan) {
-  Eigen::Vector2d variances = Eigen::Vector2d::Zero();
-  for (const seif::Observation& observation : scan.observations)
-    variances += observation.covariance.diagonal();
-  variances /= static_cast<double>(scan.observations.size());
-  return {std::sqrt(variances(0)), std::sqrt(variances(1))};
-}
-
-#ifdef __SANITIZE_ADDRESS__
-/// What is allocated while this object lives does not count as a leak.
-struct LeaksAllowed {
-  LeaksAllowed() { __lsan_disable(); }
-  ~LeaksAllowed() { __lsan_enable(); }
-  LeaksAllowed(const LeaksAllowed&) = delete;
-  LeaksAllowed& operator=(const LeaksAllowed&) = delete;
-};
-#else
-struct LeaksAllowed {};
-#endif
-
-/// Loads the module. It is never unloaded, because its libraries have registered objects that must live until
-/// the end of the program.
-std::unique_ptr<peers::MrptFilter> make_filter(const std::filesystem::path& module,
-                                               const peers::MrptSetup& setup) {
-  if (!std::filesystem::exists(module))
-    throw BadInput(
-        "mrpt_ekf: this program was built without MRPT; SEIFBED_PEERS=1 ./seifbed installs it (on Debian "
-        "libmrpt-slam-dev) and builds with it");
-  [[maybe_unused]] const LeaksAllowed by_libraries_of_mrpt;
-  void* handle = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* make = handle == nullptr ? nullptr : dlsym(handle, "seifbed_make_mrpt_filter");
-  if (make == nullptr) throw BadInput(fmt::format("mrpt_ekf: {}", dlerror()));
-  return std::unique_ptr<peers::MrptFilter>(
-      reinterpret_cast<decltype(&seifbed_make_mrpt_filter)>(make)(setup));
-}
-
-}  // namespace
-
-void MrptEkf::motion_update(const seif::Odometry& odometry) { since_ = compose(since_, odometry); }
-
-void MrptEkf::measurement_update(const seif::Scan& scan, const seif::StageDone& done) {
-  if (!scan.observations.empty()) {
-    seen_.clear();
-    for (const seif::Observation& observation : scan.observations)
-      seen_.push_back({observation.landmark, observation.range, observation.bearing});
-    const seif::Odometry motion = std::exchange(since_, {});
-    filter_->update(gaussian_of(motion.T_previous_current, motion.covariance), seen_, noise_of(scan));
-    while (3 + 2 * ids_.size() < filter_->mean().size()) {
-      const auto place = static_cast<int>(ids_.size());
-      ids_.push_back(filter_->landmark_at(place));
-      index_.insert(ids_.back(), place);
-    }
-  }
-  done(seif::Stage::measurement);
-}
-
-seif::Pose2 MrptEkf::last_pose() const {
-  const std::span<const double> mean = filter_->mean();
-  return {mean[0], mean[1], mean[2]};
-}
-
-seif::Pose2 MrptEkf::pose() const { return last_pose() * since_.T_previous_current; }
-
-std::optional<Eigen::Matrix3d> MrptEkf::pose_covariance() const {
-  Eigen::MatrixXd Sigma = covariance({0, 1, 2});
-  move_pose(Sigma, last_pose(), since_);
-  return Sigma;
-}
-
-seif::Counts MrptEkf::counts() const {
-  const auto count = static_cast<std::int64_t>(ids_.size());
-  return {.active_landmarks = static_cast<int>(count), .links = count + count * (count - 1) / 2};
-}
-
-std::size_t MrptEkf::memory_bytes() const {
-  const std::size_t size = filter_->mean().size();
-  return (size + size * size) * sizeof(double) + ids_.capacity() * sizeof(ids_[0]) + index_.memory_bytes();
-}
-
-std::vector<seif::LandmarkEstimate> MrptEkf::map() const {
-  const std::span<const double> mean = filter_->mean();
-  std::vector<seif::LandmarkEstimate> map;
-  for (std::size_t row = 3; const seif::LandmarkId id : ids_) {
-    map.push_back({id, {mean[row], mean[row + 1]}});
-    row += 2;
-  }
-  return map;
-}
-
-Eigen::MatrixXd MrptEkf::covariance(const std::vector<int>& rows) const {
-  const auto size = static_cast<Eigen::Index>(rows.size());
-  return Eigen::MatrixXd::NullaryExpr(size, size, [&](Eigen::Index i, Eigen::Index j) {
-    return filter_->covariance(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]);
-  });
-}
-
-std::optional<seif::MarginalCovariances> MrptEkf::marginal_covariances(
-    std::span<const seif::LandmarkId> landmarks) const {
-  seif::MarginalCovariances marginals{.pose = *pose_covariance(), .landmarks = {}};
-  for (const seif::LandmarkId landmark : landmarks)
-    marginals.landmarks.emplace_back(covariance({row_of(landmark), row_of(landmark) + 1}));
-  return marginals;
-}
-
-std::optional<std::vector<Eigen::MatrixXd>> MrptEkf::joint_covariances(
-    std::span<const seif::LandmarkIds> groups) const {
-  std::vector<Eigen::MatrixXd> joint;
-  for (const seif::LandmarkIds& group : groups) {
-    joint.push_back(covariance(seif::joint_rows(group, [&](seif::LandmarkId id) { return row_of(id); })));
-    move_pose(joint.back(), last_pose(), since_);
-  }
-  return joint;
-}
-
-std::filesystem::path peers_module() { return SEIFBED_PEERS_MODULE; }
 
 seif::EstimatorType mrpt_ekf_estimator(const std::filesystem::path& module) {
-  const seif::OptionSpec method{
-      .key = "method",
-      .fallback = std::string("naive"),
-      .choices = {"naive", "davison"},
-      .help = "MRPT's kfEKFNaive, which is its default, or kfEKFAlaDavison, one scalar of a scan at once."};
-  return {
-      .name = "mrpt_ekf",
-      .help =
-          "MRPT's EKF-SLAM (CRangeBearingKFSLAM2D), a peer that is not ours; where this program was built "
-          "with MRPT (SEIFBED_PEERS=1 ./seifbed).",
-      .options = {method},
-      .make = [method, module](const seif::EstimatorSetup& setup, const seif::Options& options) {
-        const seif::Pose2& sensor = setup.T_robot_sensor;
-        return std::make_unique<MrptEkf>(make_filter(
-            module, {.start = gaussian_of(setup.start.mean, setup.start.covariance),
-                     .sensor_on_robot = {sensor.x, sensor.y, sensor.theta},
-                     .one_scalar_at_once = seif::option<std::string>(options, method.key) == "davison"}));
-      }};
+  return peers::mrpt_ekf_type([module](const seif::EstimatorSetup& setup, const seif::Options& options) {
+    if (!std::filesystem::exists(module))
+      throw BadInput(
+          "mrpt_ekf: this program was built without MRPT; SEIFBED_PEERS=1 ./seifbed installs it (on Debian "
+          "libmrpt-slam-dev) and builds with it");
+    return plugin_estimators(module).find("mrpt_ekf")->make(setup, options);
+  });
 }
 
 }  // namespace harness

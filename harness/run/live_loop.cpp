@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "harness/estimators/plugins.hpp"
 #include "harness/files/bad_input.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/score/score.hpp"
@@ -47,6 +48,8 @@ void guard(LiveEstimator& estimator, double t, const Step& step) {
     step();
   } catch (const std::exception& error) {
     estimator.failure = fmt::format("at {} s: {}", t, error.what());
+  } catch (...) {  // a plug-in may throw anything
+    estimator.failure = fmt::format("at {} s: it threw something that is no std::exception", t);
   }
 }
 
@@ -63,11 +66,9 @@ std::vector<LiveEstimator> make_estimators(const seif::Registry& registry,
   std::vector<LiveEstimator> estimators;
   for (const worlds::EstimatorChoice& choice : choices) {
     check_name(choice.name, estimators);
-    const seif::EstimatorType* type = registry.find(choice.type);
-    if (type == nullptr) throw BadInput(fmt::format("there is no estimator of type '{}'", choice.type));
     const seif::EstimatorSetup setup{log.start, log.T_robot_sensor,
                                      sensors::random_stream(seed, "estimator/" + choice.name)};
-    std::unique_ptr<seif::Estimator> filter = type->make(setup, choice.options);
+    std::unique_ptr<seif::Estimator> filter = type_of(registry, choice).make(setup, choice.options);
     if (!log.known_association && filter->needs_names())
       throw BadInput(fmt::format(
           "{}: the observations of {} do not say which landmark they are of, and this estimator needs that",

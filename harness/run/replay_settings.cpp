@@ -74,6 +74,7 @@ worlds::LoadResult load_replay_settings(const std::filesystem::path& log, const 
       check_override(assignment);
       worlds::apply_override(*document, assignment, result.problems);
     }
+    worlds::find_libraries(log / "replay.yaml", *document);
     select_estimators(*document, choices.estimators, registry, result.problems);
     const worlds::EstimatorSchemas schemas = estimator_schemas(registry);
     worlds::read_fields(

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "harness/estimators/plugins.hpp"
 #include "harness/files/bad_input.hpp"
 
 namespace harness {
@@ -45,10 +46,9 @@ AbleEstimators able_estimators(const seif::Registry& registry,
                                std::span<const worlds::EstimatorChoice> choices, const LogDescription& log) {
   AbleEstimators able;
   for (worlds::EstimatorChoice choice : choices) {
-    const seif::EstimatorType* type = registry.find(choice.type);
-    if (type == nullptr) throw BadInput(fmt::format("there is no estimator of type '{}'", choice.type));
-    if (!log.known_association && needs_names(*type, choice, log)) {
-      const seif::OptionSpec* option = option_without_names(*type);
+    const seif::EstimatorType& type = type_of(registry, choice);
+    if (!log.known_association && needs_names(type, choice, log)) {
+      const seif::OptionSpec* option = option_without_names(type);
       if (option == nullptr) {
         able.notes.push_back(
             fmt::format("{} was left out: the observations do not name their landmarks", choice.name));

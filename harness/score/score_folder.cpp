@@ -1,5 +1,7 @@
 #include "harness/score/score_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -160,15 +162,21 @@ TimesWithoutTruth score_consistency(const std::filesystem::path& folder, const R
 
 }  // namespace
 
-std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name) {
-  CsvReader rows =
-      CsvReader::without_header(folder / (name + ".tum"), {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
+std::vector<TimedPose> read_tum(const std::filesystem::path& file) {
+  CsvReader rows = CsvReader::without_header(file, {{"t", "x", "y", "z", "qx", "qy", "qz", "qw"}, {}});
   std::vector<TimedPose> poses;
   while (rows.next()) {
+    if (!poses.empty() && rows.number(0) < poses.back().t)
+      rows.fail(
+          0, fmt::format("{} s is before {} s, the time of the row before", rows.number(0), poses.back().t));
     const double theta = seif::wrap_angle(2.0 * std::atan2(rows.number(6), rows.number(7)));
     poses.push_back({rows.number(0), {rows.number(1), rows.number(2), theta}});
   }
   return poses;
+}
+
+std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name) {
+  return read_tum(folder / (name + ".tum"));
 }
 
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name) {
@@ -182,13 +190,13 @@ std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std:
   return poses;
 }
 
-std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name) {
-  CsvReader rows(folder / (name + "_map.csv"), {{"landmark", "x", "y", "cov_xx", "cov_xy", "cov_yy"}, {}});
+std::vector<MapRecord> read_map_file(const std::filesystem::path& file) {
+  CsvReader rows(file, {{"landmark", "x", "y"}, {"cov_xx", "cov_xy", "cov_yy"}});
   std::vector<MapRecord> map;
   while (rows.next()) {
     const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
     map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
-    if (rows.is_empty(3)) continue;
+    if (!rows.has_optional() || rows.is_empty(3)) continue;
     // One by one: Eigen's comma initializer must be filled completely, but a bad cell throws in between.
     Eigen::Matrix2d covariance;
     covariance(0, 0) = rows.number(3);
@@ -197,6 +205,10 @@ std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::
     map.back().covariance = covariance;
   }
   return map;
+}
+
+std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name) {
+  return read_map_file(folder / (name + "_map.csv"));
 }
 
 std::vector<PointPair> pair_landmarks(std::span<const MapRecord> map, std::span<const TrueLandmark> truth) {

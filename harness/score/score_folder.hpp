@@ -76,12 +76,18 @@ RunScore score_folder(const std::filesystem::path& folder, std::span<const std::
 /// True if the true pose is known at the start of a log, or at its first event.
 bool frame_is_known(const std::filesystem::path& folder);
 
+/// The poses of a TUM file, which must be in the order of time.
+std::vector<TimedPose> read_tum(const std::filesystem::path& file);
+
 /// The poses of `NAME.tum`.
 std::vector<TimedPose> read_trajectory(const std::filesystem::path& folder, const std::string& name);
 
 /// The poses of `NAME.tum`, each with the true pose at its time. Poses without a known true pose are left
 /// out.
 std::vector<PosePair> read_poses(const std::filesystem::path& folder, const std::string& name);
+
+/// The landmarks of a file like `NAME_map.csv`.
+std::vector<MapRecord> read_map_file(const std::filesystem::path& file);
 
 /// The landmarks of `NAME_map.csv`.
 std::vector<MapRecord> read_map(const std::filesystem::path& folder, const std::string& name);

@@ -31,14 +31,14 @@ struct LiveSamples {
   std::vector<double> blocks;     // [-] touched by each update
   sim::SimulatorCounts counts;
   std::int64_t updates = 0;
-  double t = 0.0;              // [s] simulated
-  double wall_s = 0.0;         // [s] real time
-  double process_bytes = 0.0;  // resident at the end, with the simulator
-  double growth_bytes = 0.0;   // increase of process_bytes after the first fifth
-  double build_s = 0.0;        // [s] time to build the simulator
+  double t = 0.0;                       // [s] simulated
+  double wall_s = 0.0;                  // [s] real time
+  double process_bytes = 0.0;           // resident at the end, with the simulator
+  double growth_bytes = 0.0;            // increase of process_bytes after the first fifth
+  double build_s = 0.0;                 // [s] time to build the simulator
   std::optional<double> nees_pose;      // [-] at the end, if the filter can tell it
   std::optional<double> nees_landmark;  // [-] at the end, if asked for
-  seif::Pose2 T_world_robot;   // robot's pose at the end
+  seif::Pose2 T_world_robot;            // robot's pose at the end
 };
 
 struct LivePlace {

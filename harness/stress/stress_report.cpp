@@ -134,7 +134,8 @@ TextRow estimator_row(std::int64_t landmarks, const StressEstimator& estimator) 
 
 std::string estimator_table(const StressResult& result) {
   std::vector<TextRow> table = {{"landmarks", "estimator", "in map", "blocks p50", "p99", "max",
-                                 "[B]/landmark", "read map [ms]", "aligned [m]", "x reference", "NEES pose", "NEES map"}};
+                                 "[B]/landmark", "read map [ms]", "aligned [m]", "x reference", "NEES pose",
+                                 "NEES map"}};
   std::string skipped;
   for (const StressRow& row : result.rows) {
     for (const StressEstimator& estimator : row.estimators) {

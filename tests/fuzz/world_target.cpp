@@ -18,12 +18,12 @@ namespace {
 /// Stand-ins with options of every kind.
 worlds::EstimatorSchemas estimators() {
   worlds::EstimatorSchemas schemas;
-  schemas["ekf"] = [](worlds::Fields& fields, std::map<std::string, worlds::OptionValue>& options) {
+  schemas.types["ekf"] = [](worlds::Fields& fields, std::map<std::string, worlds::OptionValue>& options) {
     double gate = 0.0;
     fields.number("gate", gate, worlds::at_least(0), "gate");
     options["gate"] = gate;
   };
-  schemas["seif"] = [](worlds::Fields& fields, std::map<std::string, worlds::OptionValue>& options) {
+  schemas.types["seif"] = [](worlds::Fields& fields, std::map<std::string, worlds::OptionValue>& options) {
     std::int64_t theta_x = 6;
     bool exact = false;
     std::string mean = "tree";

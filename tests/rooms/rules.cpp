@@ -24,7 +24,7 @@ struct Room {
 /// Inner folders come before outer ones.
 const std::vector<Room>& all_rooms() {
   static const std::vector<Room> rooms = {
-      {"seif", {"seif/"}, true, {"Eigen3::Eigen"}, {"seifbed_flags"}},
+      {"seif", {"seif/"}, true, {"Eigen3::Eigen"}, {"$<BUILD_INTERFACE:seifbed_flags>"}},
       {"worlds",
        {"worlds/"},
        false,
@@ -41,7 +41,12 @@ const std::vector<Room>& all_rooms() {
        false,
        {"worlds", "Eigen3::Eigen"},
        {"PkgConfig::bullet", "fmt::fmt", "render", "seifbed_flags"}},
-      {"harness/peers", {"harness/peers/"}, false, {}, {"mrpt::slam", "seifbed_portable_flags"}},
+      {"harness/peers/mrpt_filter",
+       {"harness/peers/mrpt_filter/"},
+       false,
+       {},
+       {"mrpt::slam", "seifbed_portable_flags"}},
+      {"harness/peers", {"harness/peers/", "seif/"}, false, {}, {"seif", "mrpt_filter", "seifbed_flags"}},
       {"harness",
        {"harness/", "sim/", "sensors/", "seif/", "worlds/"},
        false,
@@ -109,7 +114,7 @@ const std::array<Library, 10>& libraries() {
        [](View path) { return is_inside(path, "harness") && !is_header(path); }},
       {"MRPT", [](View include) { return include.starts_with("mrpt/"); },
        [](View word) { return word == "mrpt"; },
-       [](View path) { return is_inside(path, "harness/peers") && !is_header(path); }},
+       [](View path) { return is_inside(path, "harness/peers/mrpt_filter") && !is_header(path); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; },
        [](View path) {

@@ -56,8 +56,8 @@ TEST(Arrows, MayNotBeCrossed) {
       {"harness/run/run.cpp", "stream.hpp"},
       {"seif/dense/ekf.cpp", "seif/../sim/simulator.hpp"},
       {"docs/example.cpp", "seif/estimator.hpp"},
-      {"harness/peers/mrpt_filter.cpp", "seif/types.hpp"},
-      {"harness/peers/mrpt_filter.cpp", "harness/stream/stream.hpp"},
+      {"harness/peers/mrpt_filter/mrpt_filter.cpp", "worlds/world.hpp"},
+      {"harness/peers/mrpt_filter/mrpt_filter.cpp", "harness/stream/stream.hpp"},
   };
   for (const auto& [path, include] : crossings) {
     const Findings expected = {path + ":2: may not include " + include};
@@ -85,9 +85,9 @@ TEST(Libraries, MayBeUsedAtHome) {
   EXPECT_EQ(check_include("harness/score/summary.cpp", "<nlohmann/json.hpp>"), no_findings);
   EXPECT_EQ(check_include("harness/commands/main.cpp", "<CLI/CLI.hpp>"), no_findings);
   EXPECT_EQ(check_include("harness/estimators/full_slam.cpp", "<ceres/problem.h>"), no_findings);
-  EXPECT_EQ(
-      check("harness/peers/mrpt_filter.cpp", "#include <mrpt/poses/CPose2D.h>\nmrpt::poses::CPose2D pose;\n"),
-      no_findings);
+  EXPECT_EQ(check("harness/peers/mrpt_filter/mrpt_filter.cpp",
+                  "#include <mrpt/poses/CPose2D.h>\nmrpt::poses::CPose2D pose;\n"),
+            no_findings);
   EXPECT_EQ(check_include("harness/statistics/statistics.cpp", "<boost/math/distributions/students_t.hpp>"),
             no_findings);
 }
@@ -113,7 +113,7 @@ TEST(Libraries, StayAtHome) {
       {"harness/statistics/statistics.hpp", "boost/math/distributions/students_t.hpp"},
       {"sim/simulator.cpp", "ceres/solver.h"},
       {"harness/estimators/mrpt_ekf.cpp", "mrpt/poses/CPose2D.h"},
-      {"harness/peers/mrpt_filter.hpp", "mrpt/poses/CPose2D.h"},
+      {"harness/peers/mrpt_filter/mrpt_filter.hpp", "mrpt/poses/CPose2D.h"},
   };
   for (const auto& [path, include] : strays) {
     const Findings findings = check_include(path, "<" + include + ">");
@@ -228,11 +228,16 @@ TEST(LinkLines, MaySayWhatTheArchitectureSays) {
                                "target_link_libraries(render PUBLIC Eigen3::Eigen PRIVATE OSMesa::headers "
                                "Freetype::Freetype PNG::PNG ${CMAKE_DL_LIBS} seifbed_flags)\n"}),
             no_findings);
+  EXPECT_EQ(
+      check_cmake_lists({"harness/peers/mrpt_filter/CMakeLists.txt",
+                         "add_library(mrpt_filter SHARED a.cpp)\n"
+                         "target_link_libraries(mrpt_filter PRIVATE mrpt::slam seifbed_portable_flags)\n"}),
+      no_findings);
   EXPECT_EQ(check_cmake_lists({"harness/peers/CMakeLists.txt",
                                "find_package(mrpt-slam QUIET)\n"
                                "if(mrpt-slam_FOUND)\n"
                                "  add_library(peers MODULE a.cpp)\n"
-                               "  target_link_libraries(peers PRIVATE mrpt::slam seifbed_portable_flags)\n"
+                               "  target_link_libraries(peers PRIVATE seif mrpt_filter seifbed_flags)\n"
                                "endif()\n"}),
             no_findings);
   EXPECT_EQ(

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 EstimatorSchemas one_estimator() {
   EstimatorSchemas schemas;
-  schemas["mine"] = [](Fields& fields, std::map<std::string, OptionValue>&) {
+  schemas.types["mine"] = [](Fields& fields, std::map<std::string, OptionValue>&) {
     double value = 1.0;
     fields.number("secret", value, any_number(), "an option");
   };

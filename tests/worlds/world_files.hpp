@@ -44,13 +44,13 @@ class Folder {
 /// Stand-ins with the names and some of the options of the real ones.
 inline EstimatorSchemas fake_estimators() {
   EstimatorSchemas schemas;
-  schemas["ekf"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
+  schemas.types["ekf"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
     double gate = 0.0;
     fields.number("gate", gate, at_least(0), "of observations");
     options["gate"] = gate;
   };
-  schemas["seif"] = schemas["ekf"];
-  schemas["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
+  schemas.types["seif"] = schemas.types["ekf"];
+  schemas.types["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
     std::int64_t theta_x = 6;
     std::int64_t recovered = 10;
     fields.integer("theta_x", theta_x, at_least(1), "active landmarks");

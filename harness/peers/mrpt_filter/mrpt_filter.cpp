@@ -1,4 +1,4 @@
-#include "harness/peers/mrpt_filter.hpp"
+#include "harness/peers/mrpt_filter/mrpt_filter.hpp"
 
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
@@ -87,8 +87,9 @@ class Filter final : public MrptFilter, private mrpt::slam::CRangeBearingKFSLAM2
 
 }  // namespace
 
-}  // namespace peers
-
-peers::MrptFilter* seifbed_make_mrpt_filter(const peers::MrptSetup& setup) {
-  return new peers::Filter(setup);
+/// The one function that this library shows.
+__attribute__((visibility("default"))) std::unique_ptr<MrptFilter> make_mrpt_filter(const MrptSetup& setup) {
+  return std::make_unique<Filter>(setup);
 }
+
+}  // namespace peers

@@ -1,8 +1,8 @@
-// MRPT's range-bearing EKF-SLAM behind an interface of plain numbers. It is a module of its own, compiled
-// with other flags than the program that loads it.
+// MRPT's range-bearing EKF-SLAM behind an interface of plain numbers, which keeps MRPT's headers in one file.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 
 namespace peers {
@@ -31,7 +31,7 @@ struct MrptSetup {
   bool one_scalar_at_once = false;             // kfEKFAlaDavison instead of kfEKFNaive
 };
 
-/// The state is [x y theta m1x m1y ...], with the landmarks in the order in which they joined it.
+/// All of its functions are virtual, so that only make_mrpt_filter() has to be exported. The state is [x y theta m1x m1y ...], with the landmarks in the order in which they joined it.
 class MrptFilter {
  public:
   virtual ~MrptFilter() = default;
@@ -46,7 +46,6 @@ class MrptFilter {
   virtual int landmark_at(int place) const = 0;
 };
 
-}  // namespace peers
+std::unique_ptr<MrptFilter> make_mrpt_filter(const MrptSetup& setup);
 
-/// Exported by the module. The caller owns the result.
-extern "C" peers::MrptFilter* seifbed_make_mrpt_filter(const peers::MrptSetup& setup);
+}  // namespace peers
