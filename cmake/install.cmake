@@ -11,6 +11,17 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/seifbedConfig.cmake ${CMAKE_CURRENT_BI
 install(TARGETS seif EXPORT seif COMPONENT seif FILE_SET HEADERS COMPONENT seif)
 install(EXPORT seif FILE seifbed-seif.cmake NAMESPACE seifbed:: DESTINATION ${config_folder} COMPONENT seif)
 
+if(SEIFBED_PYTHON)
+  if(SKBUILD)  # pip
+    install(TARGETS _seifbed DESTINATION seifbed COMPONENT python)
+  else()
+    set(site ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages)
+    install(TARGETS _seifbed DESTINATION ${site}/seifbed COMPONENT python)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/seifbed DESTINATION ${site} COMPONENT python
+      FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  endif()
+endif()
+
 if(SEIFBED_TESTBED)
   set_target_properties(seifbed PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")  # for BUILD_SHARED_LIBS
   install(TARGETS seifbed EXPORT program COMPONENT program)

@@ -40,6 +40,16 @@ test_packages=(
   "doxygen               checks the API pages"
 )
 
+# The Python package; ./seifbed python and ./test install it.
+python_packages=(
+  "python3-dev           the interpreter's headers"
+  "pybind11-dev          binds C++ to Python"
+  "python3-numpy         arrays"
+  "python3-pandas        tables"
+  "python3-matplotlib    plots"
+  "python3-pytest        tests of the package"
+)
+
 # Other people's filters to measure ours against; with SEIFBED_PEERS=1 they are installed, and where they are they are
 # built with the rest.
 peer_packages=(
@@ -94,12 +104,18 @@ install_packages() {
 # Whether a build has not found the peers that it was told to have.
 lacks_peers() { [[ ${SEIFBED_PEERS-} ]] && grep -qxF "mrpt-slam_DIR:PATH=mrpt-slam_DIR-NOTFOUND" "$1/CMakeCache.txt"; }
 
+# Whether a build was configured before the packages for Python were there, and is to have them.
+lacks_python() {
+  [[ ${packages[*]} == *pybind11-dev* ]] && grep -qxE "pybind11_DIR:PATH=(pybind11_DIR-NOTFOUND)?" "$1/CMakeCache.txt"
+}
+
 # Configures unless the folder holds a build of this very tree by these very presets: a tree that was copied or moved
 # with its build folder would else go on building the old one.
 configure() {
   local preset=$1 folder=$2
   if [[ $folder/build.ninja -nt $root/CMakePresets.json ]] &&
-    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt" && ! lacks_peers "$folder"; then
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt" && ! lacks_peers "$folder" &&
+    ! lacks_python "$folder"; then
     return 0
   fi
   say "configuring $folder"

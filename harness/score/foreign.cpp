@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "harness/files/bad_input.hpp"
@@ -19,11 +22,6 @@
 namespace harness {
 
 namespace {
-
-struct ForeignPose {
-  TimedPose pose;
-  std::optional<Eigen::Matrix3d> covariance;  // (3 x 3) [m, rad]
-};
 
 void check_order(const CsvReader& rows, double t, double last) {
   if (t < last) rows.fail(0, fmt::format("{} s is before {} s, the time of the row before", t, last));
@@ -38,10 +36,10 @@ Eigen::Matrix3d covariance_of(const CsvReader& rows, int column) {
   return covariance;
 }
 
-std::vector<ForeignPose> read_csv_poses(const std::filesystem::path& file) {
+std::vector<ForeignEstimates::Pose> read_csv_poses(const std::filesystem::path& file) {
   CsvReader rows(file,
                  {{"t", "x", "y", "theta"}, {"cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt"}});
-  std::vector<ForeignPose> poses;
+  std::vector<ForeignEstimates::Pose> poses;
   while (rows.next()) {
     const double t = rows.number(0);
     if (!poses.empty()) check_order(rows, t, poses.back().pose.t);
@@ -51,57 +49,37 @@ std::vector<ForeignPose> read_csv_poses(const std::filesystem::path& file) {
   return poses;
 }
 
-std::vector<ForeignPose> read_foreign_poses(const std::filesystem::path& file) {
+std::vector<ForeignEstimates::Pose> read_foreign_poses(const std::filesystem::path& file) {
   if (file.extension() == ".csv") return read_csv_poses(file);
-  std::vector<ForeignPose> poses;
+  std::vector<ForeignEstimates::Pose> poses;
   for (const TimedPose& pose : read_tum(file)) poses.push_back({pose, {}});
   return poses;
 }
 
-/// The true pose at any time, from any of the files that may hold it.
-class ForeignTruth {
- public:
-  explicit ForeignTruth(const std::filesystem::path& file) {
-    constexpr double any_gap = std::numeric_limits<double>::infinity();
-    if (std::filesystem::is_directory(file)) {
-      log_.emplace(file);
-    } else if (file.extension() == ".csv") {
-      log_.emplace(file, any_gap);
-    } else {
-      poses_ = read_tum(file);
-    }
-  }
+using TruthAt = std::function<std::optional<seif::Pose2>(double t)>;
 
-  /// Calls must come in the order of time.
-  std::optional<seif::Pose2> at(double t) {
-    const std::optional<TruePose> pose = log_ ? log_->at(t) : track_.at(t, [this] { return next_row(); });
+/// The truth from any of the files that may hold it.
+TruthAt truth_of_file(const std::filesystem::path& file) {
+  constexpr double any_gap = std::numeric_limits<double>::infinity();
+  const bool is_folder = std::filesystem::is_directory(file);
+  if (!is_folder && file.extension() != ".csv") return truth_from(read_tum(file));
+  const auto reader = is_folder ? std::make_shared<TruthReader>(file) : std::make_shared<TruthReader>(file, any_gap);
+  return [reader](double t) {
+    const std::optional<TruePose> pose = reader->at(t);
     return pose ? std::optional(pose->T_world_robot) : std::nullopt;
-  }
-
- private:
-  std::optional<TruePose> next_row() {
-    if (next_ == poses_.size()) return std::nullopt;
-    const TimedPose& pose = poses_[next_++];
-    return TruePose{.t = pose.t, .T_world_robot = pose.T_world_robot};
-  }
-
-  std::optional<TruthReader> log_;  // of a log; otherwise:
-  std::vector<TimedPose> poses_;
-  std::size_t next_ = 0;
-  TruthTrack track_;
-};
+  };
+}
 
 std::optional<double> mean_of_sum(double sum, int count) {
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
-void score_foreign_trajectory(const ForeignFiles& files, double rpe_interval, ForeignScore& scored) {
-  ForeignTruth truth(files.truth);
+void score_foreign_trajectory(const ForeignEstimates& estimates, double rpe_interval, ForeignScore& scored) {
   std::vector<PosePair> pairs;
   double sum = 0.0;
   int count = 0;
-  for (const auto& [pose, covariance] : read_foreign_poses(files.trajectory)) {
-    const std::optional<seif::Pose2> true_pose = truth.at(pose.t);
+  for (const auto& [pose, covariance] : estimates.poses) {
+    const std::optional<seif::Pose2> true_pose = estimates.truth(pose.t);
     if (!true_pose) {
       ++scored.poses_without_truth;
       continue;
@@ -117,24 +95,19 @@ void score_foreign_trajectory(const ForeignFiles& files, double rpe_interval, Fo
     ++count;
   }
   if (pairs.empty())
-    throw BadInput(fmt::format("{}: {} gives no true pose at any of its times", files.trajectory.string(),
-                               files.truth.string()));
+    throw BadInput(fmt::format("{}: there is no true pose at any of its times", estimates.name));
   scored.poses = static_cast<int>(pairs.size());
   scored.score.trajectory = absolute_trajectory_error(pairs);
   scored.score.rpe = relative_pose_error(pairs, rpe_interval);
   scored.score.nees_pose = mean_of_sum(sum, count);
 }
 
-void score_foreign_map(const ForeignFiles& files, EstimatorScore& score) {
-  const std::filesystem::path file =
-      files.landmarks.empty() ? files.truth / "landmarks.csv" : files.landmarks;
-  const std::vector<TrueLandmark> truth = read_landmarks(file);
-  const std::vector<MapRecord> map = read_map_file(files.map);
+void score_foreign_map(const ForeignEstimates& estimates, EstimatorScore& score) {
   std::vector<PointPair> points;
   double sum = 0.0;
   int count = 0;
-  for (const MapRecord& landmark : map) {
-    const std::vector<PointPair> pair = pair_landmarks(std::span(&landmark, 1), truth);
+  for (const MapRecord& landmark : estimates.map) {
+    const std::vector<PointPair> pair = pair_landmarks(std::span(&landmark, 1), estimates.landmarks);
     points.insert(points.end(), pair.begin(), pair.end());
     if (pair.empty() || !landmark.covariance) continue;
     const auto value = nees(Eigen::Vector2d(pair[0].est_point - pair[0].true_point), *landmark.covariance);
@@ -143,9 +116,9 @@ void score_foreign_map(const ForeignFiles& files, EstimatorScore& score) {
     ++count;
   }
   if (points.empty())
-    throw BadInput(fmt::format("{}: none of its landmarks is in {}", files.map.string(), file.string()));
-  score.landmarks_mapped = static_cast<int>(map.size());
-  score.landmarks_spurious = static_cast<int>(map.size() - points.size());
+    throw BadInput(fmt::format("{}: none of its landmarks is among the true ones", estimates.name));
+  score.landmarks_mapped = static_cast<int>(estimates.map.size());
+  score.landmarks_spurious = static_cast<int>(estimates.map.size() - points.size());
   score.landmarks = score_points(points);
   score.nees_landmark = mean_of_sum(sum, count);
 }
@@ -158,13 +131,46 @@ ForeignJson json_number(const std::optional<double>& value) {
 
 }  // namespace
 
-ForeignScore score_foreign(const ForeignFiles& files, double rpe_interval) {
+TruthAt truth_from(std::vector<TimedPose> poses) {
+  struct Rows {
+    std::vector<TimedPose> poses;
+    std::size_t next = 0;
+    TruthTrack track;
+  };
+  const auto rows = std::make_shared<Rows>();
+  rows->poses = std::move(poses);
+  return [rows](double t) {
+    const std::optional<TruePose> pose = rows->track.at(t, [&]() -> std::optional<TruePose> {
+      if (rows->next == rows->poses.size()) return std::nullopt;
+      const TimedPose& row = rows->poses[rows->next++];
+      return TruePose{.t = row.t, .T_world_robot = row.T_world_robot};
+    });
+    return pose ? std::optional(pose->T_world_robot) : std::nullopt;
+  };
+}
+
+ForeignScore score_foreign(const ForeignEstimates& estimates, double rpe_interval) {
   ForeignScore scored;
-  const std::filesystem::path& named = files.trajectory.empty() ? files.map : files.trajectory;
-  scored.score.name = named.stem().string();
-  if (!files.trajectory.empty()) score_foreign_trajectory(files, rpe_interval, scored);
-  if (!files.map.empty()) score_foreign_map(files, scored.score);
+  scored.score.name = estimates.name;
+  if (!estimates.poses.empty()) score_foreign_trajectory(estimates, rpe_interval, scored);
+  if (!estimates.map.empty()) score_foreign_map(estimates, scored.score);
   return scored;
+}
+
+ForeignScore score_foreign(const ForeignFiles& files, double rpe_interval) {
+  ForeignEstimates estimates;
+  const std::filesystem::path& named = files.trajectory.empty() ? files.map : files.trajectory;
+  estimates.name = named.stem().string();
+  if (!files.trajectory.empty()) {
+    estimates.poses = read_foreign_poses(files.trajectory);
+    estimates.truth = truth_of_file(files.truth);
+  }
+  if (!files.map.empty()) {
+    estimates.map = read_map_file(files.map);
+    estimates.landmarks =
+        read_landmarks(files.landmarks.empty() ? files.truth / "landmarks.csv" : files.landmarks);
+  }
+  return score_foreign(estimates, rpe_interval);
 }
 
 std::string foreign_board(const ForeignScore& scored) {

@@ -1,8 +1,12 @@
 // Scores what any other program has estimated, from files of its own.
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "harness/score/score_folder.hpp"
 
@@ -25,8 +29,28 @@ struct ForeignScore {
   int poses_without_truth = 0;  // [-]
 };
 
-/// Scores a trajectory, a map, or both. The name is that of the file. `rpe_interval` [s] is that of the relative
-/// pose error. Throws BadInput for a file that is missing or broken, and if nothing can be compared.
+/// A trajectory and a map, either of which may be empty, and what they are compared with.
+struct ForeignEstimates {
+  struct Pose {
+    TimedPose pose;
+    std::optional<Eigen::Matrix3d> covariance;  // (3 x 3) [m, rad]
+  };
+  std::string name;
+  std::vector<Pose> poses;  // in the order of time
+  std::vector<MapRecord> map;
+  std::vector<TrueLandmark> landmarks;  // sorted by id
+  /// The true pose at a time [s]; nothing if it is not known. Called in the order of time.
+  std::function<std::optional<seif::Pose2>(double t)> truth;
+};
+
+/// Throws BadInput if a trajectory or a map is there, and nothing of it can be compared. `rpe_interval` [s] is that
+/// of the relative pose error.
+ForeignScore score_foreign(const ForeignEstimates& estimates, double rpe_interval);
+
+/// The true pose between these poses, which are in the order of time.
+std::function<std::optional<seif::Pose2>(double t)> truth_from(std::vector<TimedPose> poses);
+
+/// Scores a trajectory, a map, or both. The name is that of the file. Throws BadInput for a file that is missing or broken, too.
 ForeignScore score_foreign(const ForeignFiles& files, double rpe_interval);
 
 std::string foreign_board(const ForeignScore& scored);

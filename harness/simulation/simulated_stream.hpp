@@ -43,6 +43,15 @@ class SimulatedStream final : public Stream {
   /// The robot is steered at each odometry reading, by the pose that is believed after that reading.
   bool next(Event& event) override;
 
+  /// From now on this command moves the robot, and not the drive.
+  void move_by(const sim::Command& command);
+
+  /// Whether another event is due at the time of the last one, so that next() moves nothing.
+  bool is_due() const { return odometry_clock_.next_step() <= step_ || scan_clock_.next_step() <= step_; }
+
+  sim::RobotState robot() const { return simulator_->robot(); }  // the truth
+  std::int64_t physics_steps() const { return step_; }           // [-] since the start
+
  private:
   /// A periodic event, counted in whole physics steps: times are not accumulated.
   struct Clock {
@@ -76,6 +85,7 @@ class SimulatedStream final : public Stream {
   Clock scan_clock_;
   bool must_steer_ = true;
   sim::Command command_;
+  std::optional<sim::Command> given_command_;       // instead of the drive's
   std::vector<int> in_range_;                       // reused from scan to scan
   std::vector<sensors::LandmarkTruth> candidates_;  // reused from scan to scan
   ScanMemory memory_;

@@ -53,6 +53,11 @@ const std::vector<Room>& all_rooms() {
        {"seif", "worlds", "sensors", "sim", "render", "harness", "Eigen3::Eigen"},
        {"Boost::headers", "Ceres::ceres", "fmt::fmt", "nlohmann_json::nlohmann_json", "CLI11::CLI11",
         "${CMAKE_DL_LIBS}", "seifbed_flags"}},
+      {"python",
+       {"python/", "harness/", "sim/", "sensors/", "seif/", "worlds/"},
+       false,
+       {},
+       {"harness", "fmt::fmt", "nlohmann_json::nlohmann_json", "pybind11::module", "seifbed_flags"}},
   };
   return rooms;
 }
@@ -81,10 +86,10 @@ bool is_upper(std::string_view word, std::size_t at) {
   return at < word.size() && std::isupper(static_cast<unsigned char>(word[at])) != 0;
 }
 
-const std::array<Library, 10>& libraries() {
+const std::array<Library, 11>& libraries() {
   using View = std::string_view;
   constexpr auto in_render = [](View path) { return is_inside(path, "sim/render"); };
-  static constexpr std::array<Library, 10> all = {{
+  static constexpr std::array<Library, 11> all = {{
       {"Bullet",
        [](View include) {
          return include.starts_with("bt") || include.starts_with("Bullet") ||
@@ -115,6 +120,8 @@ const std::array<Library, 10>& libraries() {
       {"MRPT", [](View include) { return include.starts_with("mrpt/"); },
        [](View word) { return word == "mrpt"; },
        [](View path) { return is_inside(path, "harness/peers/mrpt_filter") && !is_header(path); }},
+      {"pybind11", [](View include) { return include.starts_with("pybind11/") || include == "Python.h"; },
+       [](View word) { return word == "pybind11"; }, [](View path) { return is_inside(path, "python"); }},
       {"CLI11", [](View include) { return include.starts_with("CLI/"); },
        [](View word) { return word == "CLI"; },
        [](View path) {
@@ -132,10 +139,15 @@ std::string at(std::string_view path, int line, const std::string& what) {
 /// A room's target, and the folder of its tests.
 std::string_view name_of(const Room& room) { return room.folder.substr(room.folder.rfind('/') + 1); }
 
+const Room* room_named(std::string_view folder) {
+  const auto found = std::ranges::find(all_rooms(), folder, &Room::folder);
+  return found == all_rooms().end() ? nullptr : &*found;
+}
+
 /// The room of a file, or of the file that a test is about; null if there is none.
 const Room* room_of(std::string_view path) {
   for (const std::string_view whole : {"tests/fuzz", "tests/soak"}) {  // tests of all rooms together
-    if (is_inside(path, whole)) return &all_rooms().back();
+    if (is_inside(path, whole)) return room_named("harness");
   }
   const bool test = is_inside(path, "tests");
   if (test) path.remove_prefix(std::string_view("tests/").size());
@@ -356,7 +368,7 @@ Findings check_paths(const std::vector<std::string>& paths) {
   static const Names top = {"sim",         "seif",    "worlds",    "sensors",         "tests",
                             "harness",     "docs",    "README.md", "CMakeLists.txt",  "CMakePresets.json",
                             "LICENSE",     "seifbed", "test",      "CONTRIBUTING.md", "CHANGELOG.md",
-                            "CITATION.cff"};
+                            "CITATION.cff", "Dockerfile", "cmake",  "python",          "pyproject.toml"};
   static const Names shapeless = {"common", "utils", "util", "helpers", "misc"};
   std::set<std::string> findings;
   for (std::string_view path : paths) {

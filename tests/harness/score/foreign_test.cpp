@@ -74,7 +74,7 @@ TEST(Foreign, WrongFilesAreRefusedAtTheirPlace) {
   EXPECT_NE(trajectory("back.csv").find("back.csv:3:1: t: 0 s is before 1 s"), std::string::npos)
       << trajectory("back.csv");
   EXPECT_NE(trajectory("nan.csv").find("nan.csv:2:5"), std::string::npos) << trajectory("nan.csv");
-  EXPECT_NE(trajectory("late.tum").find("gives no true pose"), std::string::npos) << trajectory("late.tum");
+  EXPECT_NE(trajectory("late.tum").find("no true pose"), std::string::npos) << trajectory("late.tum");
   EXPECT_NE(trajectory("nowhere.tum"), "");
   EXPECT_NE(error_of({.map = folder / "map.csv", .landmarks = folder / "landmarks.csv"})
                 .find("none of its landmarks"),

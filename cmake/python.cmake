@@ -1,0 +1,10 @@
+# Whether the Python package can be built: where pybind11 and the headers of Debian's Python are.
+set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The interpreter that the Python package is for")
+set(PYBIND11_FINDPYTHON ON)
+find_package(Python 3.9 COMPONENTS Interpreter Development.Module QUIET)
+find_package(pybind11 2.10 CONFIG QUIET)
+set(python_is_possible OFF)
+if(Python_FOUND AND pybind11_FOUND AND NOT SEIFBED_THREAD_SANITIZE AND NOT SEIFBED_FUZZ)
+  set(python_is_possible ON)
+endif()
+option(SEIFBED_PYTHON "Build the Python package" ${python_is_possible})

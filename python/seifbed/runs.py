@@ -1,0 +1,169 @@
+"""Whole runs, and comparisons of many."""
+
+import json
+import os
+import tempfile
+
+import numpy as np
+import pandas as pd
+
+from . import _seifbed, worlds
+
+
+class Run:
+    """A finished run, read from its folder (docs/log_format.md)."""
+
+    def __init__(self, folder, keep=None):
+        self.folder = os.fspath(folder)
+        self._keep = keep  # the temporary folder lives as long as the run
+        with open(os.path.join(self.folder, "summary.json"), encoding="utf-8") as file:
+            self.summary = json.load(file)
+        self.names = list(self.summary["estimators"])
+
+    def __repr__(self):
+        return f"Run({self.summary['world']!r}, seed={self.summary['seed']}, estimators={self.names})"
+
+    @property
+    def trajectory_hash(self):
+        """16 hex digits over what the run saw and estimated."""
+        return self.summary["trajectory_hash"]
+
+    @property
+    def failures(self):
+        """{estimator: why it ended early}; empty if none did."""
+        found = {name: one.get("failure") for name, one in self.summary["estimators"].items()}
+        return {name: why for name, why in found.items() if why}
+
+    @property
+    def scores(self):
+        """A row for each estimator, with the keys of summary.json (docs/scores.md)."""
+        rows = self.summary["estimators"]
+        return pd.json_normalize([{"estimator": name, **rows[name]} for name in rows]).set_index("estimator")
+
+    def _table(self, name):
+        return pd.read_csv(os.path.join(self.folder, name))
+
+    def _trajectory(self, name):
+        path = os.path.join(self.folder, name + ".tum")
+        table = pd.read_csv(path, sep=" ", names=["t", "x", "y", "z", "qx", "qy", "qz", "qw"], comment="#")
+        angle = 2 * np.arctan2(table.qz, table.qw)
+        table["theta"] = np.arctan2(np.sin(angle), np.cos(angle))
+        return table[["t", "x", "y", "theta"]]
+
+    @property
+    def truth(self):
+        """The true poses: t, x, y, theta."""
+        return self._table("truth.csv")
+
+    @property
+    def odometry(self):
+        """The trajectory of dead reckoning: t, x, y, theta."""
+        return self._trajectory("odometry")
+
+    @property
+    def observations(self):
+        """All observations: t, landmark, range, bearing, and their covariances."""
+        return self._table("observations.csv")
+
+    @property
+    def landmarks(self):
+        """The true landmarks: landmark, x, y, radius."""
+        return self._table("landmarks.csv")
+
+    @property
+    def steps(self):
+        """{estimator: a row for each update}: t, x, y, theta, the covariance of the pose if it is known, counts."""
+        return {name: self._trajectory(name).merge(self._table(name + "_steps.csv"), on="t") for name in self.names}
+
+    @property
+    def times(self):
+        """{estimator: the times of each update} [us]."""
+        return {name: self._table(name + "_times.csv") for name in self.names}
+
+    @property
+    def consistency(self):
+        """{estimator: NEES at each scoring time}."""
+        return {name: self._table(name + "_consistency.csv") for name in self.names}
+
+    def map(self, estimator):
+        """The final map: landmark, x, y, cov_xx, cov_xy, cov_yy."""
+        if estimator not in self.names:
+            raise KeyError(f"the run has no estimator {estimator!r}, but {self.names}")
+        return self._table(estimator + "_map.csv")
+
+
+def open_run(folder):
+    """A run of `seifbed run`, from its folder."""
+    return Run(folder)
+
+
+def run(world, estimators=None, seed=None, duration=None, out=None, set=None, quiet=True):
+    """Runs a world, as `seifbed run` does, and returns a Run.
+
+    world       a name of the gallery, a file, or seifbed.worlds.from_dict(...)
+    estimators  names, classes with @seifbed.estimator, or {name: {option: value}}; by default those of the world
+    seed        of everything that is random
+    duration    [s]
+    out         the folder to write to, empty or new; by default a temporary one, deleted with the Run
+    set         {"path.to.key": value}, as --set of the program
+
+    Raises BadInput for a world that is wrong, KeyboardInterrupt after Ctrl-C, RuntimeError if the run broke off. An
+    estimator that failed does not raise: see Run.failures.
+    """
+    keep = tempfile.TemporaryDirectory(prefix="seifbed_") if out is None else None
+    folder = os.path.join(keep.name, "run") if out is None else os.fspath(out)
+    settings = worlds.overrides(set, seed=seed, duration_s=duration, estimators=worlds.of_estimators(estimators))
+    summary, error = _seifbed.run(worlds.path_of(world), settings, folder, quiet)
+    if json.loads(summary)["interrupted"]:
+        raise KeyboardInterrupt
+    if error:
+        raise RuntimeError(error)
+    return Run(folder, keep)
+
+
+class Comparison:
+    """Estimators over many seeds, as `seifbed compare` has them."""
+
+    def __init__(self, content):
+        self.content = content
+
+    @property
+    def scores(self):
+        """A row for each estimator: means over the seeds, with 95 % intervals."""
+        rows = self.content["estimators"]
+        return pd.json_normalize([{"estimator": name, **rows[name]} for name in rows]).set_index("estimator")
+
+    @property
+    def runs(self):
+        """A row for each run and estimator, with the keys of summary.json."""
+        rows = []
+        for one in self.content["runs"]:
+            for name, scores in one.get("estimators", {}).items():
+                rows.append({"run": one.get("name"), "seed": one.get("seed"), "estimator": name, **scores})
+        return pd.json_normalize(rows)
+
+
+def compare(world, seeds=range(1, 21), estimators=None, baseline="", duration=None, jobs=1, set=None, quiet=True):
+    """Runs a world with many seeds, and compares the estimators. Returns a Comparison.
+
+    The other arguments are those of run(). With estimators in Python, `jobs` above 1 brings little.
+    """
+    chosen = [int(seed) for seed in seeds]
+    if not chosen or min(chosen) < 0:
+        raise ValueError("seeds: give at least one, and none below zero")
+    settings = worlds.overrides(set, duration_s=duration, estimators=worlds.of_estimators(estimators))
+    text = _seifbed.compare(worlds.path_of(world), settings, chosen, baseline, int(jobs), quiet)
+    content = json.loads(text)
+    if content["interrupted"]:
+        raise KeyboardInterrupt
+    return Comparison(content)
+
+
+def film(run, file, start=None, end=None, set=None):
+    """Films a run (a Run or its folder) to a file, such as film.mp4. Returns the number of frames.
+
+    start, end  [s] of the run; by default all of it
+    set         {"film.camera": "chase"}, the settings of the world's film section
+    """
+    folder = run.folder if isinstance(run, Run) else os.fspath(run)
+    return _seifbed.film(folder, os.fspath(file), worlds.overrides(set), start, end)
