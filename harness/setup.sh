@@ -48,6 +48,8 @@ python_packages=(
   "python3-pandas        tables"
   "python3-matplotlib    plots"
   "python3-pytest        tests of the package"
+  "python3-nbconvert     runs the notebooks"
+  "python3-ipykernel     their kernel"
 )
 
 # Other people's filters to measure ours against; with SEIFBED_PEERS=1 they are installed, and where they are they are

@@ -185,21 +185,29 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   if (!estimator.failure.empty()) return;
 
   UpdateRecord record;
+  guard(estimator, event.scan.t, [&] { record = record_of(index, event); });
+  if (!estimator.failure.empty()) return;
+  for (RunListener* listener : listeners_) listener->update(index, record);
+}
+
+UpdateRecord LiveLoop::record_of(std::size_t index, const ScanEvent& event) {
+  const seif::Estimator& filter = *believers_.estimators[index].filter;
+  UpdateRecord record;
   record.t = event.scan.t;
-  record.est_pose = estimator.filter->pose();
-  record.est_covariance = estimator.filter->pose_covariance();
+  record.est_pose = filter.pose();
+  record.est_covariance = filter.pose_covariance();
   if (record.est_covariance && !record.est_covariance->allFinite()) record.est_covariance.reset();
   record.true_pose = last_true_pose_;
-  record.counts = estimator.filter->counts();
+  record.counts = filter.counts();
   record.blocks_touched = record.counts.blocks_touched - blocks_touched_[index];
   blocks_touched_[index] = record.counts.blocks_touched;
   record.times = times_[index];
-  if (!estimator.filter->needs_names()) {
-    record.associations = estimator.filter->associations();
+  if (!filter.needs_names()) {
+    record.associations = filter.associations();
     true_names_[index].add(*record.associations, event);
   }
   times_[index] = {};
-  for (RunListener* listener : listeners_) listener->update(index, record);
+  return record;
 }
 
 const seif::Scan& LiveLoop::scaled(const seif::Scan& scan, double sd_factor) {

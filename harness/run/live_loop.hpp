@@ -91,6 +91,7 @@ class LiveLoop {
   void note_truth(const std::optional<TruePose>& truth);
   void motion_update(std::size_t index, const seif::Odometry& odometry);
   void measurement_update(std::size_t index, const ScanEvent& event);
+  UpdateRecord record_of(std::size_t index, const ScanEvent& event);
   const seif::Scan& scaled(const seif::Scan& scan, double sd_factor);
   ConsistencyRecord consistency_of(std::size_t index) const;
   const TrueLandmark* true_landmark(seif::LandmarkId id) const;

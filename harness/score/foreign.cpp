@@ -63,7 +63,8 @@ TruthAt truth_of_file(const std::filesystem::path& file) {
   constexpr double any_gap = std::numeric_limits<double>::infinity();
   const bool is_folder = std::filesystem::is_directory(file);
   if (!is_folder && file.extension() != ".csv") return truth_from(read_tum(file));
-  const auto reader = is_folder ? std::make_shared<TruthReader>(file) : std::make_shared<TruthReader>(file, any_gap);
+  const auto reader =
+      is_folder ? std::make_shared<TruthReader>(file) : std::make_shared<TruthReader>(file, any_gap);
   return [reader](double t) {
     const std::optional<TruePose> pose = reader->at(t);
     return pose ? std::optional(pose->T_world_robot) : std::nullopt;

@@ -152,9 +152,8 @@ bool SimulatedStream::way_is_clear(const Eigen::Vector2d& p_robot_goal, double c
 void SimulatedStream::steer() {
   if (!must_steer_) return;
   must_steer_ = false;
-  command_ = given_command_
-                 ? *given_command_
-                 : drive_.command(t(), steering_pose_ ? steering_pose_() : truth().T_world_robot);
+  command_ = given_command_ ? *given_command_
+                            : drive_.command(t(), steering_pose_ ? steering_pose_() : truth().T_world_robot);
 }
 
 void SimulatedStream::move_by(const sim::Command& command) {

@@ -14,11 +14,11 @@ from .environment import Environment, make
 from .estimators import estimator, estimators, load_plugin
 from .filters import Ekf, Filter, Seif
 from .plots import plot
-from .runs import Comparison, Run, compare, film, open_run, run
+from .runs import Comparison, Run, compare, film, open_run, run, sweep
 from .scores import score
 
 __all__ = [
     "BadInput", "Comparison", "Ekf", "Environment", "Filter", "NumericalFailure", "Odometry", "Run", "Scan", "Seif",
     "Stage", "__version__", "compare", "estimator", "estimators", "film", "load_plugin", "make", "open_run", "plot",
-    "run", "score", "worlds",
+    "run", "score", "sweep", "worlds",
 ]

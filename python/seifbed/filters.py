@@ -5,6 +5,14 @@ import numpy as np
 from . import _seifbed
 
 
+def _floats(numbers):
+    return np.asarray(numbers, dtype=float)
+
+
+def _ids(numbers):
+    return np.asarray(numbers) if len(numbers) > 0 else np.zeros(0, dtype=np.int64)  # an empty list would be floats
+
+
 class Filter:
     """Any filter by its name, with its options (`seifbed estimators` lists them).
 
@@ -24,7 +32,7 @@ class Filter:
         if not isinstance(motion, _seifbed.Odometry):
             if covariance is None:
                 raise TypeError("the motion needs a covariance (3, 3)")
-            motion = _seifbed.Odometry(self._t if t is None else t, motion, covariance)
+            motion = _seifbed.Odometry(self._t if t is None else t, _floats(motion), _floats(covariance))
         self._t = motion.t
         self._filter.motion(motion)
 
@@ -44,7 +52,8 @@ class Filter:
             return ids
         if ranges is None or bearings is None or covariances is None:
             raise TypeError("a scan needs ids, ranges, bearings and covariances")
-        return _seifbed.Scan(self._t if t is None else t, np.asarray(ids), ranges, bearings, covariances)
+        return _seifbed.Scan(self._t if t is None else t, _ids(ids), _floats(ranges), _floats(bearings),
+                             _floats(covariances))
 
     def pose(self):
         """(3,) where the filter believes the robot to be."""
@@ -57,11 +66,11 @@ class Filter:
 
     def covariance(self, ids=()):
         """(3 + 2k, 3 + 2k) of the pose and these landmarks; None if the filter does not state it."""
-        return self._filter.covariance(np.asarray(ids, dtype=np.int64) if len(ids) == 0 else np.asarray(ids))
+        return self._filter.covariance(_ids(ids))
 
     def covariances(self, ids):
         """The marginals: pose (3, 3) and landmarks (k, 2, 2); None if the filter does not state them."""
-        return self._filter.covariances(np.asarray(ids, dtype=np.int64) if len(ids) == 0 else np.asarray(ids))
+        return self._filter.covariances(_ids(ids))
 
     def information(self):
         """(3 + 2N, 3 + 2N) the whole matrix that the filter stores: information, or an EKF's covariance."""

@@ -1,5 +1,6 @@
 """Whole runs, and comparisons of many."""
 
+import itertools
 import json
 import os
 import tempfile
@@ -138,8 +139,8 @@ class Comparison:
         """A row for each run and estimator, with the keys of summary.json."""
         rows = []
         for one in self.content["runs"]:
-            for name, scores in one.get("estimators", {}).items():
-                rows.append({"run": one.get("name"), "seed": one.get("seed"), "estimator": name, **scores})
+            for name, scores in one["summary"]["estimators"].items():
+                rows.append({"run": one["name"], "seed": one["summary"]["seed"], "estimator": name, **scores})
         return pd.json_normalize(rows)
 
 
@@ -167,3 +168,19 @@ def film(run, file, start=None, end=None, set=None):
     """
     folder = run.folder if isinstance(run, Run) else os.fspath(run)
     return _seifbed.film(folder, os.fspath(file), worlds.overrides(set), start, end)
+
+
+def sweep(world, vary, seeds=range(1, 21), estimators=None, baseline="", duration=None, jobs=1, set=None):
+    """Compares estimators for each combination of settings. Returns a table: a row for each combination and estimator.
+
+    vary  {"path.to.key": [value, ...]}
+
+    The other arguments are those of compare(), and so are the columns of the table (Comparison.scores).
+    """
+    tables = []
+    for values in itertools.product(*vary.values()):
+        chosen = dict(zip(vary, values))
+        many = compare(world, seeds, estimators, baseline, duration, jobs, {**(set or {}), **chosen})
+        tables.append(many.scores.reset_index().assign(**chosen))
+    table = pd.concat(tables, ignore_index=True)
+    return table[[*vary, *(name for name in table if name not in vary)]]

@@ -7,7 +7,7 @@ import seifbed
 TINY = {
     "name": "tiny",
     "duration_s": 4,
-    "landmarks": {"generators": [{"type": "uniform", "count": 20}]},
+    "landmarks": {"generators": [{"type": "uniform", "count": 80}]},
     "estimators": {"ekf": {}, "seif": {}},
 }
 

@@ -39,9 +39,9 @@ def test_the_ekf_and_the_eif_agree():
 
 
 def test_stages_show_the_matrix_before_and_after():
-    one = driven("seif_report", theta_x=1)
+    one = driven("seif_report", theta_x=2)
     one.motion((0.5, 0, 0.2), R)
-    stages = one.stages([7, 9], [1.6, 4.0], [0.6, 0.1], Q)
+    stages = one.stages([7, 3, 9], [1.6, 2.7, 4.0], [0.4, -0.8, 0.1], Q)
     assert [stage.name for stage in stages][:2] == ["motion", "measurement"]
     assert "sparsification" in [stage.name for stage in stages]
     assert stages[0].information.shape == (7, 7)

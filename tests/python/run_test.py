@@ -27,7 +27,7 @@ def test_a_run_is_tables(tiny):
     assert len(run.steps["seif"]) == 20
     assert {"t", "x", "y", "theta", "blocks_touched"} <= set(run.steps["seif"])
     assert len(run.map("ekf")) == run.scores.loc["ekf", "landmarks_mapped"]
-    assert len(run.landmarks) == 20
+    assert len(run.landmarks) == 80
     assert {"t", "x", "y", "theta"} <= set(run.truth)
     assert run.failures == {}
 

@@ -365,10 +365,10 @@ Findings check_cmake_lists(const TextFile& file) {
 }
 
 Findings check_paths(const std::vector<std::string>& paths) {
-  static const Names top = {"sim",         "seif",    "worlds",    "sensors",         "tests",
-                            "harness",     "docs",    "README.md", "CMakeLists.txt",  "CMakePresets.json",
-                            "LICENSE",     "seifbed", "test",      "CONTRIBUTING.md", "CHANGELOG.md",
-                            "CITATION.cff", "Dockerfile", "cmake",  "python",          "pyproject.toml"};
+  static const Names top = {"sim",          "seif",       "worlds",    "sensors",         "tests",
+                            "harness",      "docs",       "README.md", "CMakeLists.txt",  "CMakePresets.json",
+                            "LICENSE",      "seifbed",    "test",      "CONTRIBUTING.md", "CHANGELOG.md",
+                            "CITATION.cff", "Dockerfile", "cmake",     "python",          "pyproject.toml"};
   static const Names shapeless = {"common", "utils", "util", "helpers", "misc"};
   std::set<std::string> findings;
   for (std::string_view path : paths) {
