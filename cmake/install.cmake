@@ -15,7 +15,7 @@ if(SEIFBED_PYTHON)
   if(SKBUILD)  # pip
     install(TARGETS _seifbed DESTINATION seifbed COMPONENT python)
   else()
-    set(site ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages)
+    set(site lib/python3/dist-packages)
     install(TARGETS _seifbed DESTINATION ${site}/seifbed COMPONENT python)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/seifbed DESTINATION ${site} COMPONENT python
       FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)

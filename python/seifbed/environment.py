@@ -1,6 +1,9 @@
 """A world that you move step by step, shaped as Gymnasium's environments are."""
 
+from typing import Any, Optional
+
 from . import _seifbed, worlds
+from .worlds import Settings, WorldLike
 
 
 class Environment:
@@ -19,13 +22,13 @@ class Environment:
         self.sensor, self.landmarks, self.seed = about["sensor"], about["landmarks"], about["seed"]
         self.name = about["name"]
 
-    def reset(self, seed=None):
+    def reset(self, seed: Optional[int] = None):
         """Puts the robot to its start, with this seed or the same one again. Returns the first observation: nothing."""
         self._environment.reset(seed)
         self._describe()
         return _Nothing()
 
-    def step(self, action):
+    def step(self, action: tuple[float, float]) -> tuple[_seifbed.Measurements, dict[str, Any]]:
         """Moves by action = (v [m/s], omega [rad/s]) until something is measured.
 
         Returns (observation, truth). observation.t is the time, observation.odometry an Odometry or None,
@@ -38,12 +41,12 @@ class Environment:
             raise StopIteration("the world's duration is over")
         return observation, self._environment.truth()
 
-    def truth(self):
+    def truth(self) -> dict[str, Any]:
         """The true state of the robot now."""
         return self._environment.truth()
 
     @property
-    def physics_steps(self):
+    def physics_steps(self) -> int:
         """Steps of the physics since the start."""
         return self._environment.physics_steps
 
@@ -56,7 +59,8 @@ class _Nothing:
     scan = None
 
 
-def make(world, seed=None, duration=None, set=None):
+def make(world: WorldLike, seed: Optional[int] = None, duration: Optional[float] = None,
+         set: Optional[Settings] = None) -> Environment:
     """A world to be moved step by step: a name of the gallery, a file, or seifbed.worlds.from_dict(...).
 
         env = seifbed.make("courtyard", seed=1)

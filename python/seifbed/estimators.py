@@ -1,21 +1,23 @@
 """The types of estimators, and how to add one."""
 
 import inspect
+from typing import Callable, Union
 
 from . import _seifbed
+from .worlds import Path
 
 
-def estimators():
+def estimators() -> dict[str, dict]:
     """A dictionary of all types of estimators: name -> {"help": ..., "options": {key: default}}."""
     return {one["name"]: {"help": one["help"], "options": one["options"]} for one in _seifbed.estimators()}
 
 
-def load_plugin(library):
+def load_plugin(library: Path) -> None:
     """Adds the estimators of a shared library (docs/plugins.md). Raises BadInput if it is no plug-in."""
     _seifbed.load_plugin(library)
 
 
-def estimator(name, **options):
+def estimator(name: str, **options: Union[bool, int, float, str]) -> Callable[[type], type]:
     """Makes a class of Python an estimator that worlds, runs and comparisons know by `name`.
 
     The class is made with keywords: start (3,), start_covariance (3, 3), sensor (3,), which is T_robot_sensor, and each

@@ -1,9 +1,13 @@
 """A picture of a run."""
 
+from typing import Optional, Sequence
+
 import numpy as np
 
+from .runs import Run
 
-def plot(run, estimators=None, axes=None):
+
+def plot(run: Run, estimators: Optional[Sequence[str]] = None, axes=None):
     """Draws truth, odometry, estimates and maps of a Run, with 2-sigma ellipses. Returns the axes of Matplotlib."""
     import matplotlib.pyplot as plt
     from matplotlib.patches import Ellipse

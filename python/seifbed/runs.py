@@ -4,11 +4,13 @@ import itertools
 import json
 import os
 import tempfile
+from typing import Any, Iterable, Mapping, Optional, Union
 
 import numpy as np
 import pandas as pd
 
 from . import _seifbed, worlds
+from .worlds import EstimatorsLike, Path, Settings, WorldLike
 
 
 class Run:
@@ -25,18 +27,18 @@ class Run:
         return f"Run({self.summary['world']!r}, seed={self.summary['seed']}, estimators={self.names})"
 
     @property
-    def trajectory_hash(self):
+    def trajectory_hash(self) -> str:
         """16 hex digits over what the run saw and estimated."""
         return self.summary["trajectory_hash"]
 
     @property
-    def failures(self):
+    def failures(self) -> dict[str, str]:
         """{estimator: why it ended early}; empty if none did."""
         found = {name: one.get("failure") for name, one in self.summary["estimators"].items()}
         return {name: why for name, why in found.items() if why}
 
     @property
-    def scores(self):
+    def scores(self) -> pd.DataFrame:
         """A row for each estimator, with the keys of summary.json (docs/scores.md)."""
         rows = self.summary["estimators"]
         return pd.json_normalize([{"estimator": name, **rows[name]} for name in rows]).set_index("estimator")
@@ -52,53 +54,55 @@ class Run:
         return table[["t", "x", "y", "theta"]]
 
     @property
-    def truth(self):
+    def truth(self) -> pd.DataFrame:
         """The true poses: t, x, y, theta."""
         return self._table("truth.csv")
 
     @property
-    def odometry(self):
+    def odometry(self) -> pd.DataFrame:
         """The trajectory of dead reckoning: t, x, y, theta."""
         return self._trajectory("odometry")
 
     @property
-    def observations(self):
+    def observations(self) -> pd.DataFrame:
         """All observations: t, landmark, range, bearing, and their covariances."""
         return self._table("observations.csv")
 
     @property
-    def landmarks(self):
+    def landmarks(self) -> pd.DataFrame:
         """The true landmarks: landmark, x, y, radius."""
         return self._table("landmarks.csv")
 
     @property
-    def steps(self):
+    def steps(self) -> dict[str, pd.DataFrame]:
         """{estimator: a row for each update}: t, x, y, theta, the covariance of the pose if it is known, counts."""
         return {name: self._trajectory(name).merge(self._table(name + "_steps.csv"), on="t") for name in self.names}
 
     @property
-    def times(self):
+    def times(self) -> dict[str, pd.DataFrame]:
         """{estimator: the times of each update} [us]."""
         return {name: self._table(name + "_times.csv") for name in self.names}
 
     @property
-    def consistency(self):
+    def consistency(self) -> dict[str, pd.DataFrame]:
         """{estimator: NEES at each scoring time}."""
         return {name: self._table(name + "_consistency.csv") for name in self.names}
 
-    def map(self, estimator):
+    def map(self, estimator: str) -> pd.DataFrame:
         """The final map: landmark, x, y, cov_xx, cov_xy, cov_yy."""
         if estimator not in self.names:
             raise KeyError(f"the run has no estimator {estimator!r}, but {self.names}")
         return self._table(estimator + "_map.csv")
 
 
-def open_run(folder):
+def open_run(folder: Path) -> Run:
     """A run of `seifbed run`, from its folder."""
     return Run(folder)
 
 
-def run(world, estimators=None, seed=None, duration=None, out=None, set=None, quiet=True):
+def run(world: WorldLike, estimators: EstimatorsLike = None, seed: Optional[int] = None,
+        duration: Optional[float] = None, out: Optional[Path] = None, set: Optional[Settings] = None,
+        quiet: bool = True) -> Run:
     """Runs a world, as `seifbed run` does, and returns a Run.
 
     world       a name of the gallery, a file, or seifbed.worlds.from_dict(...)
@@ -129,13 +133,13 @@ class Comparison:
         self.content = content
 
     @property
-    def scores(self):
+    def scores(self) -> pd.DataFrame:
         """A row for each estimator: means over the seeds, with 95 % intervals."""
         rows = self.content["estimators"]
         return pd.json_normalize([{"estimator": name, **rows[name]} for name in rows]).set_index("estimator")
 
     @property
-    def runs(self):
+    def runs(self) -> pd.DataFrame:
         """A row for each run and estimator, with the keys of summary.json."""
         rows = []
         for one in self.content["runs"]:
@@ -144,7 +148,9 @@ class Comparison:
         return pd.json_normalize(rows)
 
 
-def compare(world, seeds=range(1, 21), estimators=None, baseline="", duration=None, jobs=1, set=None, quiet=True):
+def compare(world: WorldLike, seeds: Iterable[int] = range(1, 21), estimators: EstimatorsLike = None,
+            baseline: str = "", duration: Optional[float] = None, jobs: int = 1, set: Optional[Settings] = None,
+            quiet: bool = True) -> Comparison:
     """Runs a world with many seeds, and compares the estimators. Returns a Comparison.
 
     The other arguments are those of run(). With estimators in Python, `jobs` above 1 brings little.
@@ -160,7 +166,8 @@ def compare(world, seeds=range(1, 21), estimators=None, baseline="", duration=No
     return Comparison(content)
 
 
-def film(run, file, start=None, end=None, set=None):
+def film(run: Union[Run, Path], file: Path, start: Optional[float] = None, end: Optional[float] = None,
+         set: Optional[Settings] = None) -> int:
     """Films a run (a Run or its folder) to a file, such as film.mp4. Returns the number of frames.
 
     start, end  [s] of the run; by default all of it
@@ -170,7 +177,9 @@ def film(run, file, start=None, end=None, set=None):
     return _seifbed.film(folder, os.fspath(file), worlds.overrides(set), start, end)
 
 
-def sweep(world, vary, seeds=range(1, 21), estimators=None, baseline="", duration=None, jobs=1, set=None):
+def sweep(world: WorldLike, vary: Mapping[str, Iterable[Any]], seeds: Iterable[int] = range(1, 21),
+          estimators: EstimatorsLike = None, baseline: str = "", duration: Optional[float] = None, jobs: int = 1,
+          set: Optional[Settings] = None) -> pd.DataFrame:
     """Compares estimators for each combination of settings. Returns a table: a row for each combination and estimator.
 
     vary  {"path.to.key": [value, ...]}

@@ -1,11 +1,16 @@
 """Scores of anybody's results."""
 
 import json
+from typing import Mapping, Optional, Union
 
 import numpy as np
 import pandas as pd
+from numpy.typing import ArrayLike
 
 from . import _seifbed
+
+Table = Union[ArrayLike, pd.DataFrame]
+Points = Union[Mapping[int, ArrayLike], pd.DataFrame]
 
 _none = np.zeros((0, 2))
 
@@ -30,7 +35,9 @@ def _landmarks(points, what):
     return ids, np.asarray(list(points.values()), dtype=float).reshape(-1, 2) if points else _none
 
 
-def score(truth, landmarks=None, trajectory=None, map=None, covariances=None, name="estimate", rpe_s=1.0):
+def score(truth: Table, landmarks: Optional[Points] = None, trajectory: Optional[Table] = None,
+          map: Optional[Points] = None, covariances: Optional[dict[str, ArrayLike]] = None, name: str = "estimate",
+          rpe_s: float = 1.0) -> pd.Series:
     """Scores a trajectory and a map that any program has estimated. Returns a Series with the keys of docs/scores.md.
 
     truth        (n, 4) t, x, y, theta, or a table with these columns: the true poses; interpolated between two

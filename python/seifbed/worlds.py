@@ -3,8 +3,13 @@
 import json
 import os
 import tempfile
+from typing import Any, Iterable, Mapping, Optional, Union
 
 from . import _seifbed
+
+
+Path = Union[str, "os.PathLike[str]"]
+Settings = Mapping[str, Any]
 
 
 class World:
@@ -25,14 +30,18 @@ class World:
         return f"World({self.content.get('name', 'world')!r})"
 
 
-def from_dict(content):
+WorldLike = Union[Path, World]
+EstimatorsLike = Union[None, str, type, Iterable[Union[str, type]], Mapping[Union[str, type], Mapping[str, Any]]]
+
+
+def from_dict(content: dict) -> World:
     """A world from a dictionary with the keys of a world file (worlds/keys.md). It is checked when it is used."""
     if not isinstance(content, dict):
         raise TypeError(f"a world is a dictionary, not {type(content).__name__}")
     return World(content)
 
 
-def resolved(world, set=None):
+def resolved(world: WorldLike, set: Optional[Settings] = None) -> str:
     """The text of a world file with all defaults written out. Raises BadInput with a line for each problem."""
     return _seifbed.resolve(path_of(world), overrides(set))
 

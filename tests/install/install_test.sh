@@ -38,6 +38,15 @@ cd "$scratch"
   --set 'estimators={ekf: {}, frozen_map: {sightings: 3}}' || fail "the plug-in did not run"
 grep -q frozen_map run/summary.json || fail "the plug-in was not scored"
 
+# The Python package, where it was built.
+site=$prefix/lib/python3/dist-packages
+if [[ -d $site/seifbed ]]; then
+  PYTHONPATH=$site /usr/bin/python3 -B -c '
+import seifbed
+print(seifbed.run("courtyard", seed=1, duration=2).scores.index[0])' >"$scratch/python.log" 2>&1 ||
+    fail "the installed Python package does not run: $(cat "$scratch/python.log")"
+fi
+
 # The filters alone can be configured where nothing but Eigen is.
 cmake -G Ninja -S "$source" -B "$scratch/filters" -DSEIFBED_TESTBED=OFF -DSEIFBED_TESTS=OFF >"$scratch/filters.log" 2>&1 ||
   fail "the filters alone could not be configured: $(cat "$scratch/filters.log")"

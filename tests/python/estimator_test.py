@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -117,25 +118,25 @@ def test_a_forked_process_may_run(tiny):
     expected = seifbed.run(tiny).trajectory_hash
     reading, writing = os.pipe()
     if os.fork() == 0:
-        os.write(writing, seifbed.run(tiny).trajectory_hash.encode())
-        os._exit(0)
+        try:
+            os.write(writing, seifbed.run(tiny).trajectory_hash.encode())
+        finally:
+            os._exit(0)
     os.wait()
+    os.close(writing)
     assert os.read(reading, 100).decode() == expected
 
 
-def test_ctrl_c_ends_a_run():
-    code = ("import seifbed, sys\nprint('ready', flush=True)\n"
-            "try:\n  seifbed.run('loop', duration=100000)\n"
+def test_ctrl_c_ends_a_run(tmp_path):
+    code = ("import seifbed\n"
+            "try:\n  seifbed.run('loop', duration=100000, out='run')\n"
             "except KeyboardInterrupt:\n  print('interrupted')\n")
-    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    assert process.stdout.readline() == "ready\n"
-    while process.poll() is None:  # the run may not have begun yet
-        process.send_signal(signal.SIGINT)
-        try:
-            process.wait(timeout=3)
-        except subprocess.TimeoutExpired:
-            pass
-    assert process.stdout.read() == "interrupted\n"
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=tmp_path)
+    recorded = tmp_path / "run/truth.csv"
+    while process.poll() is None and not (recorded.exists() and recorded.stat().st_size > 0):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=300)[0] == "interrupted\n"
 
 
 def test_the_example_runs(tmp_path):

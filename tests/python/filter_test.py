@@ -1,6 +1,7 @@
 """Filters alone, and environments."""
 
 import math
+import os
 import resource
 import threading
 
@@ -185,6 +186,7 @@ def test_an_environment_in_several_threads_is_no_crash():
     assert all("another thread" in mistake for mistake in mistakes)
 
 
+@pytest.mark.skipif("asan" in os.environ.get("LD_PRELOAD", ""), reason="the sanitizer keeps what is freed")
 def test_resets_do_not_leak(tiny):
     env = seifbed.make(tiny, seed=1)
     for _ in range(200):
