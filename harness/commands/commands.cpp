@@ -57,6 +57,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const std::exception& error) {
     tell_error(fmt::format("seifbed: {}", error.what()));
     return 1;
+  } catch (...) {  // a plug-in may throw anything
+    tell_error("seifbed: something was thrown that is no std::exception");
+    return 1;
   }
 }
 

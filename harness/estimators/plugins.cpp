@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <exception>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
@@ -53,6 +54,24 @@ const seif::Plugin& open_plugin(const std::string& library) {
   return *plugin;
 }
 
+/// The type, with a function that makes an estimator or throws a std::exception.
+seif::EstimatorType carefully_made(seif::EstimatorType type) {
+  type.make = [make = std::move(type.make), name = type.name](const seif::EstimatorSetup& setup,
+                                                              const seif::Options& options) {
+    std::unique_ptr<seif::Estimator> estimator;
+    try {
+      estimator = make(setup, options);
+    } catch (const std::exception&) {
+      throw;
+    } catch (...) {
+      throw BadInput(fmt::format("{}: its constructor throws something that is no std::exception", name));
+    }
+    if (estimator == nullptr) throw BadInput(fmt::format("{}: its plug-in makes no estimator", name));
+    return estimator;
+  };
+  return type;
+}
+
 seif::Registry estimators_of(const std::string& library) {
   [[maybe_unused]] const LeaksAllowed of_libraries;
   const seif::Plugin& plugin = open_plugin(library);
@@ -69,7 +88,9 @@ seif::Registry estimators_of(const std::string& library) {
     throw BadInput(fmt::format("{}: throws something that is no std::exception", library));
   }
   if (registry.types().empty()) throw BadInput(fmt::format("{}: adds no estimator", library));
-  return registry;
+  seif::Registry careful;
+  for (const seif::EstimatorType& type : registry.types()) careful.add(carefully_made(type));
+  return careful;
 }
 
 std::vector<std::string> plugins_in_environment() {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "harness/command_call.hpp"
 #include "harness/files/bad_input.hpp"
@@ -139,6 +140,17 @@ TEST(PluginCommand, AWorldWithAWrongLibraryIsRefusedAtItsPlace) {
   const Called type = call(folder, "validate world.yaml");
   EXPECT_NE(type.errors.find("'type' must be one of plugged_in, not 'ekf'"), std::string::npos)
       << type.errors;
+}
+
+TEST(PluginCommand, AnEstimatorThatCannotBeMadeIsAProblemOfTheWorld) {
+  const TemporaryFolder folder;
+  for (const auto& [kind, reason] : {std::pair("throws_when_made", "its constructor throws something"),
+                                     std::pair("makes_nothing", "its plug-in makes no estimator")}) {
+    write_world_with(folder, "library: " + plugin(kind));
+    const Called called = call(folder, "run world.yaml");
+    EXPECT_EQ(called.exit_code, 2) << kind;
+    EXPECT_NE(called.errors.find(reason), std::string::npos) << called.errors;
+  }
 }
 
 TEST(PluginCommand, TheOptionStandsBeforeTheCommand) {

@@ -55,6 +55,21 @@ seif::EstimatorType type_named(const char* name) {
 }
 
 void good(seif::Registry& registry) { registry.add(type_named("plugged_in")); }
+/// As good(), but with another function that makes the estimator.
+template <class Make>
+void add_with(seif::Registry& registry, const Make& make) {
+  seif::EstimatorType type = type_named("plugged_in");
+  type.make = make;
+  registry.add(type);
+}
+
+using Made = std::unique_ptr<seif::Estimator>;
+[[maybe_unused]] void throws_when_made(seif::Registry& registry) {
+  add_with(registry, [](const seif::EstimatorSetup&, const seif::Options&) -> Made { throw 42; });
+}
+[[maybe_unused]] void makes_nothing(seif::Registry& registry) {
+  add_with(registry, [](const seif::EstimatorSetup&, const seif::Options&) -> Made { return nullptr; });
+}
 [[maybe_unused]] void adds_nothing(seif::Registry&) {}
 [[maybe_unused]] void takes_a_name(seif::Registry& registry) { registry.add(type_named("ekf")); }
 [[maybe_unused]] void throws(seif::Registry&) { throw std::runtime_error("the moon is not full"); }
