@@ -73,8 +73,7 @@ int call(int argc, char** argv) {
            for (const std::string& library : libraries) use_plugin(library, registry);
          },
          "Load estimators of your own from a shared library (docs/plugins.md). It stands before the command, "
-         "and may "
-         "stand several times: seifbed --plugin ./libmine.so run WORLD")
+         "and may stand several times: seifbed --plugin ./libmine.so run WORLD")
       ->type_name("FILE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

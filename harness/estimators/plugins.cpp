@@ -110,8 +110,7 @@ std::string mismatch(const seif::PluginBuild& build) {
   if (build.interface != ours.interface)
     return fmt::format(
         "is for version {} of the interface, and this program has version {}: compile it again with the "
-        "headers of "
-        "this program",
+        "headers of this program",
         build.interface, ours.interface);
   if (build.eigen != ours.eigen)
     return fmt::format("was compiled with version {} of Eigen, and this program with {} (3.4.0 is 30400)",
@@ -120,8 +119,7 @@ std::string mismatch(const seif::PluginBuild& build) {
       build.eigen_heap_alignment != ours.eigen_heap_alignment)
     return fmt::format(
         "its Eigen aligns matrices to {} and {} bytes, and that of this program to {} and {}: compile it "
-        "with the flags "
-        "of the CMake target seifbed::seif, such as -march=native",
+        "with the flags of the CMake target seifbed::seif, such as -march=native",
         build.eigen_alignment, build.eigen_heap_alignment, ours.eigen_alignment, ours.eigen_heap_alignment);
   if (build.string_bytes != ours.string_bytes || build.map_bytes != ours.map_bytes)
     return "was compiled with another standard library, or with another variant of it";

@@ -16,6 +16,7 @@
 #include "harness/files/csv_reader.hpp"
 #include "harness/files/text_table.hpp"
 #include "harness/statistics/degrees.hpp"
+#include "harness/stream/covariance_columns.hpp"
 #include "harness/stream/log_stream.hpp"
 #include "harness/stream/truth_track.hpp"
 
@@ -27,15 +28,6 @@ void check_order(const CsvReader& rows, double t, double last) {
   if (t < last) rows.fail(0, fmt::format("{} s is before {} s, the time of the row before", t, last));
 }
 
-/// The upper triangle in this column and the five after it.
-Eigen::Matrix3d covariance_of(const CsvReader& rows, int column) {
-  Eigen::Matrix3d covariance;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) covariance(i, j) = covariance(j, i) = rows.number(column++);
-  }
-  return covariance;
-}
-
 std::vector<ForeignEstimates::Pose> read_csv_poses(const std::filesystem::path& file) {
   CsvReader rows(file,
                  {{"t", "x", "y", "theta"}, {"cov_xx", "cov_xy", "cov_xt", "cov_yy", "cov_yt", "cov_tt"}});
@@ -44,7 +36,7 @@ std::vector<ForeignEstimates::Pose> read_csv_poses(const std::filesystem::path& 
     const double t = rows.number(0);
     if (!poses.empty()) check_order(rows, t, poses.back().pose.t);
     poses.push_back({{t, {rows.number(1), rows.number(2), seif::wrap_angle(rows.number(3))}}, {}});
-    if (rows.has_optional() && !rows.is_empty(4)) poses.back().covariance = covariance_of(rows, 4);
+    if (rows.has_optional() && !rows.is_empty(4)) poses.back().covariance = read_covariance<3>(rows, 4);
   }
   return poses;
 }

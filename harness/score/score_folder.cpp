@@ -12,6 +12,7 @@
 #include "harness/recording/step_table.hpp"
 #include "harness/score/seen_landmarks.hpp"
 #include "harness/statistics/divergence.hpp"
+#include "harness/stream/covariance_columns.hpp"
 #include "harness/stream/log_stream.hpp"
 
 namespace harness {
@@ -197,12 +198,7 @@ std::vector<MapRecord> read_map_file(const std::filesystem::path& file) {
     const std::int64_t id = rows.integer(0, 0, std::numeric_limits<seif::LandmarkId>::max());
     map.push_back({static_cast<seif::LandmarkId>(id), {rows.number(1), rows.number(2)}, {}});
     if (!rows.has_optional() || rows.is_empty(3)) continue;
-    // One by one: Eigen's comma initializer must be filled completely, but a bad cell throws in between.
-    Eigen::Matrix2d covariance;
-    covariance(0, 0) = rows.number(3);
-    covariance(0, 1) = covariance(1, 0) = rows.number(4);
-    covariance(1, 1) = rows.number(5);
-    map.back().covariance = covariance;
+    map.back().covariance = read_covariance<2>(rows, 3);
   }
   return map;
 }

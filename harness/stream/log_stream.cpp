@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "harness/stream/covariance_columns.hpp"
 #include "harness/stream/covariance_limits.hpp"
 
 namespace harness {
@@ -40,23 +41,6 @@ double read_time(const CsvReader& rows, double earliest, bool may_repeat) {
   if (t < earliest || (t == earliest && !may_repeat))
     rows.fail(0, fmt::format("{} s does not come after {} s, where the log was before", t, earliest));
   return t;
-}
-
-/// Covariances are stored as upper triangles, row by row.
-Eigen::Matrix3d read_covariance3(const CsvReader& rows, int column) {
-  Eigen::Matrix3d covariance;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j) covariance(i, j) = covariance(j, i) = rows.number(column++);
-  }
-  return covariance;
-}
-
-Eigen::Matrix2d read_covariance2(const CsvReader& rows, int column) {
-  Eigen::Matrix2d covariance;
-  covariance(0, 0) = rows.number(column);
-  covariance(0, 1) = covariance(1, 0) = rows.number(column + 1);
-  covariance(1, 1) = rows.number(column + 2);
-  return covariance;
 }
 
 bool has_time_alone(const CsvReader& row) {
@@ -145,7 +129,7 @@ void LogStream::read_odometry_row() {
   odometry_.t = read_time(odometry_rows_, odometry_.t, false);
   odometry_.T_previous_current = {odometry_rows_.number(1), odometry_rows_.number(2),
                                   seif::wrap_angle(odometry_rows_.number(3))};
-  odometry_.covariance = read_covariance3(odometry_rows_, 4);
+  odometry_.covariance = read_covariance<3>(odometry_rows_, 4);
   if (!is_positive_semidefinite(odometry_.covariance))
     odometry_rows_.fail(4, "this covariance has a negative eigenvalue");
   const std::string problem = problem_of_motion(odometry_.covariance);
@@ -232,7 +216,7 @@ seif::Observation LogStream::observation() const {
   observation.range = row.number(range_column);
   if (observation.range < 0.0) row.fail(range_column, "is negative");
   observation.bearing = seif::wrap_angle(row.number(bearing_column));
-  observation.covariance = row.has_optional() ? read_covariance2(row, first_covariance_column)
+  observation.covariance = row.has_optional() ? read_covariance<2>(row, first_covariance_column)
                                               : covariance(description_.noise, observation.range);
   const std::string problem = problem_of_observation(observation.covariance);
   if (!problem.empty()) row.fail(first_covariance_column, problem);
