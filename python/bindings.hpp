@@ -27,16 +27,25 @@ void bind_environment(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_scores(py::module_& module);
 
+/// An array or a list of real numbers. Throws ValueError, which calls it `what`, if it is none.
+Numbers numbers_of(const py::object& numbers, const std::string& what);
+
 /// The vector or matrix of these numbers. Throws ValueError, which calls it `what`, if the shape is another one or a
 /// number is not finite.
 Eigen::VectorXd vector_of(const Numbers& numbers, Eigen::Index size, const std::string& what);
-Eigen::MatrixXd matrix_of(const Numbers& numbers, Eigen::Index rows, Eigen::Index cols, const std::string& what);
+Eigen::MatrixXd matrix_of(const Numbers& numbers, Eigen::Index rows, Eigen::Index cols,
+                          const std::string& what);
+
+/// A covariance without what rounding has made asymmetric. Throws ValueError if it is more than that.
+Eigen::MatrixXd covariance_of(const Numbers& numbers, Eigen::Index size, const std::string& what);
 
 seif::Pose2 pose_of(const Numbers& numbers, const std::string& what);
 Numbers array_of(const seif::Pose2& pose);  // (3,)
 
-/// The landmarks of a scan or a map. Throws ValueError for a number below zero and for one that occurs twice.
-seif::LandmarkIds ids_of(const py::array& numbers);
+/// The landmarks of a scan or a map. Throws TypeError for what is no whole number, ValueError for a number below zero
+/// and for one that occurs twice.
+seif::LandmarkIds ids_of(const py::object& numbers);
+seif::LandmarkId id_of(const py::handle& number);
 
 /// The options of an estimator from keywords. Throws TypeError for a value that is no bool, int, float or str.
 seif::Options options_of(const py::dict& keywords);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "harness/stream/covariance_limits.hpp"
 #include "python/bindings.hpp"
 #include "seif/make_estimator.hpp"
 
@@ -17,11 +18,17 @@ namespace seifbed {
 
 namespace {
 
-constexpr std::array<const char*, 4> stage_names = {"motion", "measurement", "sparsification", "mean_recovery"};
+constexpr std::array<const char*, 4> stage_names = {"motion", "measurement", "sparsification",
+                                                    "mean_recovery"};
 
 seif::OptionValue option_value(const std::string& key, const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
-  if (py::isinstance<py::int_>(value)) return value.cast<std::int64_t>();
+  if (py::isinstance<py::int_>(value)) {
+    int overflow = 0;
+    const long long whole = PyLong_AsLongLongAndOverflow(value.ptr(), &overflow);
+    if (overflow != 0) throw py::value_error(key + " is too large");
+    return std::int64_t{whole};
+  }
   if (py::isinstance<py::float_>(value)) return value.cast<double>();
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   throw py::type_error(key + " must be a bool, an int, a float or a str");
@@ -30,28 +37,38 @@ seif::OptionValue option_value(const std::string& key, const py::handle& value) 
 /// What a filter believes when a stage of its update has ended.
 struct StageSnapshot {
   std::string name;
-  Eigen::MatrixXd matrix;           // (3+2N x 3+2N); empty if the filter stores none
-  std::vector<int> links;           // landmarks with an element of the matrix in the robot's row
+  Eigen::MatrixXd matrix;  // (3+2N x 3+2N); empty if the filter stores none
+  std::vector<int> links;  // landmarks with an element of the matrix in the robot's row
   seif::Pose2 pose;
 };
 
 StageSnapshot snapshot_of(const seif::Estimator& filter, seif::Stage stage) {
-  StageSnapshot snapshot{stage_names.at(static_cast<std::size_t>(stage)), filter.whole_belief_matrix(), {}, filter.pose()};
+  StageSnapshot snapshot{
+      stage_names.at(static_cast<std::size_t>(stage)), filter.whole_belief_matrix(), {}, filter.pose()};
   std::vector<seif::Coupling> couplings;
   filter.couplings(seif::no_landmark, couplings);
   for (const seif::Coupling& coupling : couplings) snapshot.links.push_back(coupling.other);
   return snapshot;
 }
 
+/// What a filter is told before its first motion. Throws ValueError for a start that no filter can work with.
+seif::EstimatorSetup setup_of(const py::object& start, const py::object& start_covariance,
+                              const py::object& sensor, std::uint64_t seed) {
+  const Eigen::Matrix3d covariance =
+      covariance_of(numbers_of(start_covariance, "start_covariance"), 3, "start_covariance");
+  if (const std::string problem = harness::problem_of_start(covariance); !problem.empty())
+    throw py::value_error("start_covariance: " + problem);
+  return {{pose_of(numbers_of(start, "start"), "start"), covariance},
+          pose_of(numbers_of(sensor, "sensor"), "sensor"),
+          std::mt19937_64(seed)};
+}
+
 /// A filter and the motions that its next scan will process.
 class Filter {
  public:
-  Filter(const std::string& name, const Numbers& start, const Numbers& start_covariance, const Numbers& sensor,
-         std::uint64_t seed, const py::dict& options)
-      : filter_(seif::make_estimator(known_registry(), name,
-                                     {{pose_of(start, "start"), matrix_of(start_covariance, 3, 3, "start_covariance")},
-                                      pose_of(sensor, "sensor"),
-                                      std::mt19937_64(seed)},
+  Filter(const std::string& name, const py::object& start, const py::object& start_covariance,
+         const py::object& sensor, std::uint64_t seed, const py::dict& options)
+      : filter_(seif::make_estimator(known_registry(), name, setup_of(start, start_covariance, sensor, seed),
                                      options_of(options))) {}
 
   void motion(const seif::Odometry& odometry) { filter_->motion_update(odometry); }
@@ -64,8 +81,8 @@ class Filter {
   std::vector<StageSnapshot> stages(const seif::Scan& scan) {
     check_names(scan);
     std::vector<StageSnapshot> snapshots = {snapshot_of(*filter_, seif::Stage::motion)};
-    filter_->measurement_update(scan,
-                                [&](seif::Stage stage) { snapshots.push_back(snapshot_of(*filter_, stage)); });
+    filter_->measurement_update(
+        scan, [&](seif::Stage stage) { snapshots.push_back(snapshot_of(*filter_, stage)); });
     return snapshots;
   }
 
@@ -83,7 +100,7 @@ class Filter {
   }
 
   /// The joint covariance of the pose and these landmarks; None if the filter has none. (3+2k, 3+2k)
-  py::object covariance(const py::array& numbers) const {
+  py::object covariance(const py::object& numbers) const {
     const seif::LandmarkIds ids = ids_of(numbers);
     check_mapped(ids);
     auto joint = filter_->joint_covariances(std::span(&ids, 1));
@@ -92,7 +109,7 @@ class Filter {
   }
 
   /// (pose (3, 3), landmarks (k, 2, 2)); None if the filter has none.
-  py::object covariances(const py::array& numbers) const {
+  py::object covariances(const py::object& numbers) const {
     const seif::LandmarkIds ids = ids_of(numbers);
     check_mapped(ids);
     const auto marginals = filter_->marginal_covariances(ids);
@@ -160,12 +177,14 @@ void bind_filter(py::module_& module) {
       .def_property_readonly(
           "information", [](const StageSnapshot& stage) -> const Eigen::MatrixXd& { return stage.matrix; },
           py::return_value_policy::reference_internal,
-          "(3+2N, 3+2N), rows [x y theta m1x m1y ...]; a view. A covariance for an EKF, empty for a filter without one.")
+          "(3+2N, 3+2N), rows [x y theta m1x m1y ...]; a view. A covariance for an EKF, empty for a filter "
+          "without one.")
       .def_readonly("links", &StageSnapshot::links, "Landmarks that have a link to the robot.")
       .def_property_readonly(
           "pose", [](const StageSnapshot& stage) { return array_of(stage.pose); }, "(3,) [m, m, rad].");
   py::class_<Filter>(module, "Filter", "A filter alone, by its name.")
-      .def(py::init<const std::string&, const Numbers&, const Numbers&, const Numbers&, std::uint64_t, const py::dict&>(),
+      .def(py::init<const std::string&, const py::object&, const py::object&, const py::object&,
+                    std::uint64_t, const py::dict&>(),
            "name"_a, "start"_a, "start_covariance"_a, "sensor"_a, "seed"_a, "options"_a)
       .def("motion", &Filter::motion, "odometry"_a)
       .def("measure", &Filter::measure, "scan"_a)

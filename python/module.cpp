@@ -8,6 +8,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/terminal/version.hpp"
 #include "python/bindings.hpp"
+#include "python/long_call.hpp"
 #include "seif/estimator.hpp"
 
 namespace seifbed {
@@ -34,4 +35,5 @@ PYBIND11_MODULE(_seifbed, module) {
   seifbed::bind_environment(module);
   seifbed::bind_scores(module);
   seifbed::bind_runs(module);
+  module.def("end_calls", &seifbed::end_calls);
 }

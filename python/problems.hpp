@@ -13,7 +13,10 @@ namespace seifbed {
 inline worlds::World sound_world(worlds::LoadResult loaded) {
   if (loaded.world) return std::move(*loaded.world);
   std::string text;
-  for (const worlds::Problem& problem : loaded.problems) text += (text.empty() ? "" : "\n") + worlds::to_string(problem);
+  for (const worlds::Problem& problem : loaded.problems) {
+    if (!text.empty()) text += '\n';
+    text += worlds::to_string(problem);
+  }
   throw harness::BadInput(text);
 }
 

@@ -3,10 +3,13 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,14 +20,32 @@ namespace seifbed {
 
 namespace {
 
+/// An exception of Python in one line: what it says, and the innermost places from which it came.
+std::string one_line(const py::error_already_set& error) {
+  std::string text = error.what();  // pybind11 lists the places in lines of their own, the innermost first
+  constexpr std::size_t most_places = 4;
+  const std::size_t at = text.find("\n\nAt:\n");
+  std::string places;
+  if (at != std::string::npos) {
+    std::istringstream lines(text.substr(at + 6));
+    std::string line;
+    for (std::size_t i = 0; i < most_places && std::getline(lines, line); ++i)
+      places += fmt::format("{}{}", i == 0 ? " at " : ", called from ",
+                            line.substr(std::min<std::size_t>(2, line.size())));
+    text.resize(at);
+  }
+  std::ranges::replace(text, '\n', ' ');
+  return text + places;
+}
+
 /// Calls Python, and turns an exception of Python into one that needs no interpreter.
 template <class Call>
 auto in_python(const char* function, const Call& call) {
   const py::gil_scoped_acquire gil;
   try {
     return call();
-  } catch (py::error_already_set& error) {
-    throw std::runtime_error(fmt::format("{}: {}", function, error.what()));
+  } catch (const py::error_already_set& error) {
+    throw std::runtime_error(fmt::format("{}: {}", function, one_line(error)));
   } catch (const py::builtin_exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", function, error.what()));
   }
@@ -42,7 +63,8 @@ class PythonEstimator final : public seif::Estimator {
   }
   ~PythonEstimator() override {
     const py::gil_scoped_acquire gil;
-    for (py::object* part : {&covariance_, &map_, &pose_, &measure_, &motion_, &object_}) *part = py::object();
+    for (py::object* part : {&covariance_, &map_, &pose_, &measure_, &motion_, &object_})
+      *part = py::object();
   }
   PythonEstimator(const PythonEstimator&) = delete;
   PythonEstimator& operator=(const PythonEstimator&) = delete;
@@ -57,7 +79,8 @@ class PythonEstimator final : public seif::Estimator {
   }
 
   seif::Pose2 pose() const override {
-    return in_python("pose", [&] { return pose_of(Numbers(pose_()), "the pose that pose() returns"); });
+    constexpr const char* what = "the pose that pose() returns";
+    return in_python("pose", [&] { return pose_of(numbers_of(pose_(), what), what); });
   }
 
   std::optional<Eigen::Matrix3d> pose_covariance() const override {
@@ -73,9 +96,9 @@ class PythonEstimator final : public seif::Estimator {
     return in_python("map", [&] {
       std::vector<seif::LandmarkEstimate> map;
       for (const auto& [id, position] : py::dict(map_())) {
-        const Eigen::VectorXd mean = vector_of(Numbers(py::reinterpret_borrow<py::object>(position)), 2,
-                                               "a position in the map that map() returns");
-        map.push_back({id.cast<seif::LandmarkId>(), mean});
+        constexpr const char* what = "a position in the map that map() returns";
+        map.push_back(
+            {id_of(id), vector_of(numbers_of(py::reinterpret_borrow<py::object>(position), what), 2, what)});
       }
       return map;
     });
@@ -112,7 +135,8 @@ class PythonEstimator final : public seif::Estimator {
       const py::object returned = covariance_(numbers);
       if (returned.is_none()) return std::nullopt;
       const Eigen::Index size = 3 + 2 * static_cast<Eigen::Index>(ids.size());
-      return matrix_of(Numbers(returned), size, size, "what covariance() returns");
+      return covariance_of(numbers_of(returned, "what covariance() returns"), size,
+                           "what covariance() returns");
     });
   }
 

@@ -21,6 +21,7 @@
 #include "harness/run/runnable_world.hpp"
 #include "harness/terminal/version.hpp"
 #include "python/bindings.hpp"
+#include "python/long_call.hpp"
 #include "python/problems.hpp"
 #include "worlds/gallery.hpp"
 
@@ -44,7 +45,8 @@ Loaded load(const std::filesystem::path& name, const Overrides& overrides, const
 
 /// Runs a world into a folder that is empty or missing. Returns (summary.json, why it ended early).
 std::pair<std::string, std::string> run(const std::filesystem::path& name, const Overrides& overrides,
-                                        const std::filesystem::path& folder, bool quiet, const seif::Registry& registry) {
+                                        const std::filesystem::path& folder, bool quiet,
+                                        const seif::Registry& registry) {
   const Loaded loaded = load(name, overrides, registry);
   harness::PreparedRun run = harness::prepare_run(loaded.world, registry);
   run.plan.folder = harness::create_empty_folder(folder);
@@ -54,7 +56,8 @@ std::pair<std::string, std::string> run(const std::filesystem::path& name, const
   return {harness::to_json(result.summary), result.error};
 }
 
-harness::DetailedRun run_seed(const std::filesystem::path& name, Overrides overrides, std::uint64_t seed, const seif::Registry& registry) {
+harness::DetailedRun run_seed(const std::filesystem::path& name, Overrides overrides, std::uint64_t seed,
+                              const seif::Registry& registry) {
   overrides.push_back(fmt::format("seed={}", seed));
   const Loaded loaded = load(name, overrides, registry);
   const harness::TemporaryFolder folder;
@@ -67,14 +70,16 @@ harness::DetailedRun run_seed(const std::filesystem::path& name, Overrides overr
 
 /// Runs a world with many seeds. Returns the comparison as `seifbed compare --json` prints it.
 std::string compare(const std::filesystem::path& name, const Overrides& overrides,
-                    const std::vector<std::uint64_t>& seeds, const std::string& baseline, int jobs, bool quiet, const seif::Registry& registry) {
+                    const std::vector<std::uint64_t>& seeds, const std::string& baseline, int jobs,
+                    bool quiet, const seif::Registry& registry) {
   const Loaded loaded = load(name, overrides, registry);
   harness::Comparison comparison;
   comparison.name = loaded.world.name;
   comparison.baseline = harness::choose_baseline(baseline, loaded.world.estimators);
   std::vector<harness::PlannedRun> planned;
   for (const std::uint64_t seed : seeds)
-    planned.push_back({fmt::format("{}-{}", comparison.name, seed), [&, seed] { return run_seed(name, overrides, seed, registry); }});
+    planned.push_back({fmt::format("{}-{}", comparison.name, seed),
+                       [&, seed] { return run_seed(name, overrides, seed, registry); }});
   harness::FinishedRuns finished = harness::execute_all(planned, jobs, quiet);
   comparison.runs = std::move(finished.runs);
   comparison.interrupted = finished.interrupted;
@@ -82,27 +87,28 @@ std::string compare(const std::filesystem::path& name, const Overrides& override
   return harness::to_json(comparison);
 }
 
-/// Films a run. Returns the number of frames.
-std::int64_t film(const std::filesystem::path& run, const std::filesystem::path& file, const Overrides& overrides,
-                  std::optional<double> from, std::optional<double> to, const seif::Registry& registry) {
+/// Films a run. Returns (the number of frames, whether Ctrl-C ended it).
+std::pair<std::int64_t, bool> film(const std::filesystem::path& run, const std::filesystem::path& file,
+                                   const Overrides& overrides, std::optional<double> from,
+                                   std::optional<double> to, const seif::Registry& registry) {
   std::vector<worlds::Problem> problems;
-  std::optional<harness::FilmableFolder> folder =
-      harness::prepare_film(run, overrides, registry, problems);
+  std::optional<harness::FilmableFolder> folder = harness::prepare_film(run, overrides, registry, problems);
   if (!folder) throw harness::BadInput(worlds::to_string(problems.front()));
   const worlds::Film& settings = folder->plan.world.film;
   folder->plan.clock = harness::film_clock(settings, folder->plan.start, folder->plan.end, from, to);
   folder->plan.path = harness::path_area(run, folder->plan.clock.start, folder->plan.clock.end);
   harness::check_frame_sink(file, false, harness::Existing::replace);
-  return harness::film_folder(
-             *folder, run, harness::make_frame_sink(file, {settings.width, settings.height, settings.fps}, false), true)
-      .frames;
+  const harness::FilmResult result = harness::film_folder(
+      *folder, run, harness::make_frame_sink(file, {settings.width, settings.height, settings.fps}, false),
+      true);
+  return {result.frames, result.interrupted};
 }
 
 /// Calls a function while other threads of Python run. They may add estimators, so it gets a copy of the known ones.
 template <class Call>
 auto apart(const Call& call) {
   const seif::Registry registry = known_registry();
-  const py::gil_scoped_release released;
+  const LongCall without_python;
   return call(registry);
 }
 
@@ -112,14 +118,16 @@ void bind_runs(py::module_& module) {
   using namespace py::literals;
   module.def(
       "run",
-      [](const std::filesystem::path& name, const Overrides& overrides, const std::filesystem::path& folder, bool quiet) {
-        return apart([&](const seif::Registry& registry) { return run(name, overrides, folder, quiet, registry); });
+      [](const std::filesystem::path& name, const Overrides& overrides, const std::filesystem::path& folder,
+         bool quiet) {
+        return apart(
+            [&](const seif::Registry& registry) { return run(name, overrides, folder, quiet, registry); });
       },
       "world"_a, "overrides"_a, "folder"_a, "quiet"_a);
   module.def(
       "compare",
-      [](const std::filesystem::path& name, const Overrides& overrides, const std::vector<std::uint64_t>& seeds,
-         const std::string& baseline, int jobs, bool quiet) {
+      [](const std::filesystem::path& name, const Overrides& overrides,
+         const std::vector<std::uint64_t>& seeds, const std::string& baseline, int jobs, bool quiet) {
         return apart([&](const seif::Registry& registry) {
           return compare(name, overrides, seeds, baseline, jobs, quiet, registry);
         });
@@ -129,7 +137,8 @@ void bind_runs(py::module_& module) {
       "film",
       [](const std::filesystem::path& run, const std::filesystem::path& file, const Overrides& overrides,
          std::optional<double> start, std::optional<double> end) {
-        return apart([&](const seif::Registry& registry) { return film(run, file, overrides, start, end, registry); });
+        return apart(
+            [&](const seif::Registry& registry) { return film(run, file, overrides, start, end, registry); });
       },
       "run"_a, "file"_a, "overrides"_a, "start"_a, "end"_a);
   module.def(
@@ -140,7 +149,8 @@ void bind_runs(py::module_& module) {
       "world"_a, "overrides"_a);
   module.def("find_world", &worlds::find_world, "name"_a);
   module.def(
-      "load_plugin", [](const std::filesystem::path& library) { harness::add_plugin(library, known_registry()); },
+      "load_plugin",
+      [](const std::filesystem::path& library) { harness::add_plugin(library, known_registry()); },
       "library"_a);
   module.def(
       "add_estimator",

@@ -20,7 +20,8 @@ std::vector<harness::TimedPose> poses_of(const Numbers& rows, const std::string&
   const Eigen::MatrixXd values = matrix_of(rows, rows.ndim() > 0 ? rows.shape(0) : 0, 4, what);
   std::vector<harness::TimedPose> poses;
   for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    if (i > 0 && values(i, 0) < values(i - 1, 0)) throw py::value_error(what + " must be in the order of time");
+    if (i > 0 && values(i, 0) < values(i - 1, 0))
+      throw py::value_error(what + " must be in the order of time");
     poses.push_back({values(i, 0), {values(i, 1), values(i, 2), seif::wrap_angle(values(i, 3))}});
   }
   return poses;
@@ -28,27 +29,27 @@ std::vector<harness::TimedPose> poses_of(const Numbers& rows, const std::string&
 
 /// The matrices of an array (n, size, size). A matrix with a NaN is missing.
 template <int size>
-std::vector<std::optional<Eigen::Matrix<double, size, size>>> matrices_of(const std::optional<Numbers>& numbers,
-                                                                          std::size_t count,
-                                                                          const std::string& what) {
+std::vector<std::optional<Eigen::Matrix<double, size, size>>> matrices_of(
+    const std::optional<Numbers>& numbers, std::size_t count, const std::string& what) {
   using Matrix = Eigen::Matrix<double, size, size>;
   std::vector<std::optional<Matrix>> matrices(count);
   if (!numbers) return matrices;
   const bool fits = numbers->ndim() == 3 && numbers->shape(0) == static_cast<py::ssize_t>(count) &&
                     numbers->shape(1) == size && numbers->shape(2) == size;
   if (!fits)
-    throw py::value_error(what + " must have the shape (n, " + std::to_string(size) + ", " + std::to_string(size) +
-                          "), with n = " + std::to_string(count));
+    throw py::value_error(what + " must have the shape (n, " + std::to_string(size) + ", " +
+                          std::to_string(size) + "), with n = " + std::to_string(count));
   for (std::size_t i = 0; i < count; ++i) {
     const Matrix matrix = Eigen::Map<const Matrix>(numbers->data() + i * size * size);
-    if (matrix.allFinite()) matrices[i] = matrix;
+    if (!matrix.allFinite()) continue;
+    matrices[i] = covariance_of(Numbers({size, size}, numbers->data() + i * size * size), size, what);
   }
   return matrices;
 }
 
 std::string score(const std::string& name, const Numbers& truth, const Numbers& trajectory,
-                  const std::optional<Numbers>& pose_covariances, const py::array& true_ids,
-                  const Numbers& true_landmarks, const py::array& ids, const Numbers& map,
+                  const std::optional<Numbers>& pose_covariances, const py::object& true_ids,
+                  const Numbers& true_landmarks, const py::object& ids, const Numbers& map,
                   const std::optional<Numbers>& landmark_covariances, double rpe_interval) {
   harness::ForeignEstimates estimates;
   estimates.name = name;
@@ -58,7 +59,8 @@ std::string score(const std::string& name, const Numbers& truth, const Numbers& 
   for (std::size_t i = 0; i < poses.size(); ++i) estimates.poses.push_back({poses[i], of_poses[i]});
 
   const seif::LandmarkIds known = ids_of(true_ids);
-  const Eigen::MatrixXd places = matrix_of(true_landmarks, static_cast<Eigen::Index>(known.size()), 2, "landmarks");
+  const Eigen::MatrixXd places =
+      matrix_of(true_landmarks, static_cast<Eigen::Index>(known.size()), 2, "landmarks");
   for (std::size_t i = 0; i < known.size(); ++i)
     estimates.landmarks.push_back({known[i], places.row(static_cast<Eigen::Index>(i)).transpose(), 0.0});
   std::ranges::sort(estimates.landmarks, {}, &harness::TrueLandmark::landmark);

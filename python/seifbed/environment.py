@@ -36,10 +36,10 @@ class Environment:
         Raises StopIteration when the world's duration is over.
         """
         v, omega = action
-        observation = self._environment.step(v, omega)
-        if observation is None:
+        measured = self._environment.step(v, omega)
+        if measured is None:
             raise StopIteration("the world's duration is over")
-        return observation, self._environment.truth()
+        return measured
 
     def truth(self) -> dict[str, Any]:
         """The true state of the robot now."""

@@ -1,6 +1,7 @@
 """The types of estimators, and how to add one."""
 
 import inspect
+import re
 from typing import Callable, Union
 
 from . import _seifbed
@@ -33,6 +34,11 @@ def estimator(name: str, **options: Union[bool, int, float, str]) -> Callable[[t
     """
     if not isinstance(name, str):
         raise TypeError('give a name: @seifbed.estimator("mine")')
+    if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_-]{0,63}", name):
+        raise ValueError(f"{name!r} is no name: use at most 64 letters, digits, '_' and '-', not beginning with '-'")
+    taken = sorted({"start", "start_covariance", "sensor"} & set(options))
+    if taken:
+        raise ValueError(f"the option {taken[0]!r} needs another name: every estimator is told its {taken[0]}")
 
     def register(cls):
         missing = [one for one in ("motion", "measure", "pose", "map") if not callable(getattr(cls, one, None))]
@@ -43,10 +49,9 @@ def estimator(name: str, **options: Union[bool, int, float, str]) -> Callable[[t
             return cls(start=start, start_covariance=start_covariance, sensor=sensor, **chosen)
 
         summary = (inspect.getdoc(cls) or "An estimator in Python.").splitlines()[0]
-        try:
-            _seifbed.add_estimator(name, summary, options, make)
-        except ValueError:
-            raise ValueError(f"there is an estimator {name!r} already") from None
+        if name in estimators():
+            raise ValueError(f"there is an estimator {name!r} already")
+        _seifbed.add_estimator(name, summary, options, make)
         cls.seifbed_name = name
         return cls
 

@@ -8,14 +8,6 @@ from numpy.typing import ArrayLike
 from . import _seifbed
 
 
-def _floats(numbers):
-    return np.asarray(numbers, dtype=float)
-
-
-def _ids(numbers):
-    return np.asarray(numbers) if len(numbers) > 0 else np.zeros(0, dtype=np.int64)  # an empty list would be floats
-
-
 class Filter:
     """Any filter by its name, with its options (`seifbed estimators` lists them).
 
@@ -36,7 +28,7 @@ class Filter:
         if not isinstance(motion, _seifbed.Odometry):
             if covariance is None:
                 raise TypeError("the motion needs a covariance (3, 3)")
-            motion = _seifbed.Odometry(self._t if t is None else t, _floats(motion), _floats(covariance))
+            motion = _seifbed.Odometry(self._t if t is None else t, motion, covariance)
         self._t = motion.t
         self._filter.motion(motion)
 
@@ -60,8 +52,7 @@ class Filter:
             return ids
         if ranges is None or bearings is None or covariances is None:
             raise TypeError("a scan needs ids, ranges, bearings and covariances")
-        return _seifbed.Scan(self._t if t is None else t, _ids(ids), _floats(ranges), _floats(bearings),
-                             _floats(covariances))
+        return _seifbed.Scan(self._t if t is None else t, ids, ranges, bearings, covariances)
 
     def pose(self) -> np.ndarray:
         """(3,) where the filter believes the robot to be."""
@@ -74,11 +65,11 @@ class Filter:
 
     def covariance(self, ids: ArrayLike = ()) -> Optional[np.ndarray]:
         """(3 + 2k, 3 + 2k) of the pose and these landmarks; None if the filter does not state it."""
-        return self._filter.covariance(_ids(ids))
+        return self._filter.covariance(ids)
 
     def covariances(self, ids: ArrayLike) -> Optional[tuple[np.ndarray, np.ndarray]]:
         """The marginals: pose (3, 3) and landmarks (k, 2, 2); None if the filter does not state them."""
-        return self._filter.covariances(_ids(ids))
+        return self._filter.covariances(ids)
 
     def information(self) -> np.ndarray:
         """(3 + 2N, 3 + 2N) the whole matrix that the filter stores: information, or an EKF's covariance."""

@@ -1,9 +1,14 @@
 """Whole runs, and comparisons of many."""
 
+import atexit
 import itertools
 import json
+import operator
 import os
 import tempfile
+import threading
+import weakref
+import _thread
 from typing import Any, Iterable, Mapping, Optional, Union
 
 import numpy as np
@@ -95,6 +100,29 @@ class Run:
         return self._table(estimator + "_map.csv")
 
 
+_ending = threading.Event()
+
+
+def _end():
+    """Ends what daemon threads still run."""
+    _ending.set()
+    _seifbed.end_calls()
+
+
+# The first finalize() registers the function that deletes temporary folders: only what comes later is called before it.
+weakref.finalize(_ending, _ending.is_set).detach()
+atexit.register(_end)
+
+
+def _tell_interrupt():
+    """Ctrl-C ended a call in C++, which Python has therefore not seen."""
+    if _ending.is_set():
+        raise SystemExit  # ends a daemon thread, without a word
+    if threading.current_thread() is not threading.main_thread():
+        _thread.interrupt_main()
+    raise KeyboardInterrupt
+
+
 def open_run(folder: Path) -> Run:
     """A run of `seifbed run`, from its folder."""
     return Run(folder)
@@ -115,12 +143,15 @@ def run(world: WorldLike, estimators: EstimatorsLike = None, seed: Optional[int]
     Raises BadInput for a world that is wrong, KeyboardInterrupt after Ctrl-C, RuntimeError if the run broke off. An
     estimator that failed does not raise: see Run.failures.
     """
-    keep = tempfile.TemporaryDirectory(prefix="seifbed_") if out is None else None
-    folder = os.path.join(keep.name, "run") if out is None else os.fspath(out)
+    keep = None
+    if out is None:
+        keep = tempfile.TemporaryDirectory(prefix="seifbed_")
+        out = os.path.join(keep.name, "run")
+    folder = os.fspath(out)
     settings = worlds.overrides(set, seed=seed, duration_s=duration, estimators=worlds.of_estimators(estimators))
     summary, error = _seifbed.run(worlds.path_of(world), settings, folder, quiet)
     if json.loads(summary)["interrupted"]:
-        raise KeyboardInterrupt
+        _tell_interrupt()
     if error:
         raise RuntimeError(error)
     return Run(folder, keep)
@@ -155,14 +186,16 @@ def compare(world: WorldLike, seeds: Iterable[int] = range(1, 21), estimators: E
 
     The other arguments are those of run(). With estimators in Python, `jobs` above 1 brings little.
     """
-    chosen = [int(seed) for seed in seeds]
+    chosen = [operator.index(seed) for seed in seeds]
     if not chosen or min(chosen) < 0:
         raise ValueError("seeds: give at least one, and none below zero")
+    if operator.index(jobs) < 1:
+        raise ValueError("jobs: give at least 1")
     settings = worlds.overrides(set, duration_s=duration, estimators=worlds.of_estimators(estimators))
-    text = _seifbed.compare(worlds.path_of(world), settings, chosen, baseline, int(jobs), quiet)
+    text = _seifbed.compare(worlds.path_of(world), settings, chosen, baseline, operator.index(jobs), quiet)
     content = json.loads(text)
     if content["interrupted"]:
-        raise KeyboardInterrupt
+        _tell_interrupt()
     return Comparison(content)
 
 
@@ -174,7 +207,10 @@ def film(run: Union[Run, Path], file: Path, start: Optional[float] = None, end: 
     set         {"film.camera": "chase"}, the settings of the world's film section
     """
     folder = run.folder if isinstance(run, Run) else os.fspath(run)
-    return _seifbed.film(folder, os.fspath(file), worlds.overrides(set), start, end)
+    frames, interrupted = _seifbed.film(folder, os.fspath(file), worlds.overrides(set), start, end)
+    if interrupted:
+        _tell_interrupt()
+    return frames
 
 
 def sweep(world: WorldLike, vary: Mapping[str, Iterable[Any]], seeds: Iterable[int] = range(1, 21),

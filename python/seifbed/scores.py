@@ -51,13 +51,17 @@ def score(truth: Table, landmarks: Optional[Points] = None, trajectory: Optional
     """
     if trajectory is None and map is None:
         raise ValueError("there is neither a trajectory nor a map to score")
+    if not 0 < rpe_s < float("inf"):
+        raise ValueError("rpe_s must be above zero")
     known = dict(covariances or {})
     poses, points = known.pop("poses", None), known.pop("landmarks", None)
     if known:
         raise ValueError(f"covariances: there is no {sorted(known)[0]!r}; use 'poses' and 'landmarks'")
     pose_columns = ["t", "x", "y", "theta"]
+    true_ids, true_points = _landmarks(landmarks, "landmarks")
+    ids, means = _landmarks(map, "map")
     text = _seifbed.score(
         name, _rows(truth, pose_columns, "truth"),
         np.zeros((0, 4)) if trajectory is None else _rows(trajectory, pose_columns, "trajectory"), poses,
-        *_landmarks(landmarks, "landmarks"), *_landmarks(map, "map"), points, float(rpe_s))
+        true_ids, true_points, ids, means, points, float(rpe_s))
     return pd.Series(json.loads(text))

@@ -5,8 +5,9 @@ import os
 import tempfile
 from typing import Any, Iterable, Mapping, Optional, Union
 
-from . import _seifbed
+import numpy as np
 
+from . import _seifbed
 
 Path = Union[str, "os.PathLike[str]"]
 Settings = Mapping[str, Any]
@@ -21,7 +22,7 @@ class World:
         self._folder = tempfile.TemporaryDirectory(prefix="seifbed_")
         self.path = os.path.join(self._folder.name, "".join(c if c.isalnum() else "_" for c in name) + ".yaml")
         with open(self.path, "w", encoding="utf-8") as file:
-            json.dump(content, file, indent=1, allow_nan=True)  # JSON is YAML
+            json.dump(content, file, indent=1, allow_nan=True, default=_plain)  # JSON is YAML
 
     def __fspath__(self):
         return self.path
@@ -55,7 +56,14 @@ def path_of(world):
 
 def _text(value):
     """A value as YAML."""
-    return value if isinstance(value, str) else json.dumps(value)
+    return value if isinstance(value, str) else json.dumps(value, default=_plain)
+
+
+def _plain(value):
+    """A number or an array of numpy as Python's own."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{value!r} cannot be written to a world file")
 
 
 def overrides(set=None, **values):
