@@ -63,6 +63,9 @@ py::array_t<T> view_of(const T* data, std::vector<py::ssize_t> shape, std::vecto
 void add_python_estimator(seif::Registry& registry, const std::string& name, const std::string& help,
                           const py::dict& defaults, const py::object& make);
 
+/// Whether the type is a class of Python.
+bool is_in_python(const seif::EstimatorType& type);
+
 /// The estimators of the program, of the plug-ins, and those that are classes of Python. Not a copy: it may grow.
 seif::Registry& known_registry();
 

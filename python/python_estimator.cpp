@@ -156,24 +156,29 @@ py::dict keywords_of(const seif::Options& options) {
   return keywords;
 }
 
+struct MakeInPython {
+  /// Never released: the registry lives as long as the program, and longer than the interpreter.
+  py::handle make;
+
+  std::unique_ptr<seif::Estimator> operator()(const seif::EstimatorSetup& setup,
+                                              const seif::Options& options) const {
+    return in_python("the constructor", [&] {
+      return std::make_unique<PythonEstimator>(make(array_of(setup.start.mean),
+                                                    py::cast(setup.start.covariance),
+                                                    array_of(setup.T_robot_sensor), keywords_of(options)));
+    });
+  }
+};
+
 }  // namespace
 
 void add_python_estimator(seif::Registry& registry, const std::string& name, const std::string& help,
                           const py::dict& defaults, const py::object& make) {
   std::vector<seif::OptionSpec> specs;
   for (const auto& [key, value] : options_of(defaults)) specs.push_back(spec_of(key, value));
-  // Never destroyed: the registry lives as long as the program, and longer than the interpreter.
-  const py::handle kept = make.inc_ref();
-  registry.add({.name = name,
-                .help = help,
-                .options = specs,
-                .make = [kept](const seif::EstimatorSetup& setup, const seif::Options& options) {
-                  return in_python("the constructor", [&]() -> std::unique_ptr<seif::Estimator> {
-                    return std::make_unique<PythonEstimator>(
-                        kept(array_of(setup.start.mean), py::cast(setup.start.covariance),
-                             array_of(setup.T_robot_sensor), keywords_of(options)));
-                  });
-                }});
+  registry.add({.name = name, .help = help, .options = specs, .make = MakeInPython{make.inc_ref()}});
 }
+
+bool is_in_python(const seif::EstimatorType& type) { return type.make.target<MakeInPython>() != nullptr; }
 
 }  // namespace seifbed

@@ -43,12 +43,22 @@ Loaded load(const std::filesystem::path& name, const Overrides& overrides, const
   return {sound_world(std::move(loaded)), resolved};
 }
 
+/// With a note for each estimator whose times are those of Python.
+harness::PreparedRun prepared(const Loaded& loaded, const seif::Registry& registry) {
+  harness::PreparedRun run = harness::prepare_run(loaded.world, registry);
+  for (const worlds::EstimatorChoice& choice : loaded.world.estimators) {
+    if (is_in_python(harness::type_of(registry, choice)))
+      run.plan.notes.push_back(fmt::format("{} is a class of Python: its times include Python", choice.name));
+  }
+  return run;
+}
+
 /// Runs a world into a folder that is empty or missing. Returns (summary.json, why it ended early).
 std::pair<std::string, std::string> run(const std::filesystem::path& name, const Overrides& overrides,
                                         const std::filesystem::path& folder, bool quiet,
                                         const seif::Registry& registry) {
   const Loaded loaded = load(name, overrides, registry);
-  harness::PreparedRun run = harness::prepare_run(loaded.world, registry);
+  harness::PreparedRun run = prepared(loaded, registry);
   run.plan.folder = harness::create_empty_folder(folder);
   run.plan.quiet = quiet;
   harness::write_world(run.plan.folder, loaded.world, loaded.resolved);
@@ -61,7 +71,7 @@ harness::DetailedRun run_seed(const std::filesystem::path& name, Overrides overr
   overrides.push_back(fmt::format("seed={}", seed));
   const Loaded loaded = load(name, overrides, registry);
   const harness::TemporaryFolder folder;
-  harness::PreparedRun run = harness::prepare_run(loaded.world, registry);
+  harness::PreparedRun run = prepared(loaded, registry);
   run.plan.folder = folder.path();
   run.plan.quiet = true;
   harness::write_world(run.plan.folder, loaded.world, loaded.resolved);

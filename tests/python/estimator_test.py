@@ -37,6 +37,7 @@ def test_it_runs_beside_others_with_its_options(tiny, odometer):
     mine = registered(Mine, gain=0.5)
     run = seifbed.run(tiny, estimators={"ekf": {}, mine: {"gain": 0.25}})
     assert seen[-1] == 0.25
+    assert run.summary["notes"] == [f"{mine.seifbed_name} is a class of Python: its times include Python"]
     assert run.failures == {}
     assert np.isnan(run.scores.loc[mine.seifbed_name, "nees_pose"].astype(float))
 

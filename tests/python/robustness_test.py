@@ -3,6 +3,7 @@
 import ast
 import math
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -287,6 +288,29 @@ def test_a_scan_cannot_be_copied_half():
     for half in (copy.copy, copy.deepcopy, pickle.dumps):
         with pytest.raises(TypeError):
             half(scan())
+
+
+def test_matrices_are_not_copied():
+    one = seifbed.Seif()
+    stages = one.stages([1, 2], [1, 2], [0, 1], Q)
+    assert np.shares_memory(stages[-1].information, stages[-1].information)
+    assert one.information().base is not None and one.covariance([1]).base is not None  # memory of C++, handed over
+    motion = seifbed.Odometry(0, (1, 0, 0), R)
+    assert np.shares_memory(motion.covariance, motion.covariance)
+    seen = scan()
+    assert np.shares_memory(seen.covariances, seen.covariances)
+
+
+def test_the_version_is_the_same_everywhere():
+    root = pathlib.Path(__file__).parents[2]
+    numbers = re.findall(r"version_(?:major|minor|patch)\s*=\s*(\d+)", (root / "seif/version.hpp").read_text())
+    assert f'version = "{".".join(numbers)}"' in (root / "pyproject.toml").read_text()
+
+
+def test_the_package_has_all_its_files():
+    source = pathlib.Path(__file__).parents[2] / "python/seifbed"
+    built = {path.name for path in pathlib.Path(seifbed.__file__).parent.iterdir()}
+    assert {path.name for path in source.iterdir() if path.name != "__pycache__"} <= built
 
 
 def test_the_stubs_name_what_the_module_has():

@@ -11,7 +11,7 @@ if [[ $version != "$wanted" ]]; then
   exit 77
 fi
 
-mapfile -t files < <(find seif worlds sensors sim harness tests -name '*.[ch]pp' -not -path '*/corpus/*' | sort)
+mapfile -t files < <(find seif worlds sensors sim harness python tests -name '*.[ch]pp' -not -path '*/corpus/*' | sort)
 if [[ ${1-} == --fix ]]; then
   clang-format -i "${files[@]}"
 elif ! clang-format --dry-run -Werror "${files[@]}"; then

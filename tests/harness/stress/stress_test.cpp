@@ -72,6 +72,7 @@ TEST(Stress, AMapThatIsTooLargeForCovariancesHasTheNeesOfThePoseAlone) {
 TEST(Stress, AnInterruptedRowIsNotScored) {
   const TemporaryFolder folder;
   StressPlan plan = small_plan(folder);
+  plan.world.landmarks = 40;
   std::atomic<bool> stop = false;
   int updates = 0;
   plan.after_each_update = [&] { stop = ++updates == 5; };
