@@ -29,6 +29,11 @@ class Nothing:
         return {}
 
 
+@seifbed.estimator("nothing_too")
+class NothingToo(Nothing):
+    """Does nothing either."""
+
+
 def seconds(repetitions, call):
     begin = time.perf_counter()
     for _ in range(repetitions):
@@ -52,6 +57,12 @@ print(f"a scan there and back: {1e6 * seconds(20_000, scan_there_and_back):.1f} 
 
 run = seifbed.run("courtyard", estimators=[Nothing])
 print(f"an update that does nothing: {run.scores['update_us.p50'][0]:.1f} us")
+
+# All that a run asks of an estimator in Python, by the clock on the wall: what a second one adds.
+one = min(seconds(1, lambda: seifbed.run("courtyard", estimators=[Nothing])) for _ in range(5))
+two = min(seconds(1, lambda: seifbed.run("courtyard", estimators=[Nothing, NothingToo])) for _ in range(5))
+updates = 900
+print(f"with pose, covariance and record: {1e6 * (two - one) / updates:.1f} us")
 
 resets = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
 seconds(100, env.reset)
