@@ -28,7 +28,8 @@ packages=(
   "libpng-dev            writes and reads images"
   "ffmpeg                encodes films"
   "gnuplot-nox           draws figures for papers"
-  "libjs-chart.js        plots in reports"
+  "libjs-chart.js        plots in reports and in the live page"
+  "libjs-three           the scene of the live page"
 )
 
 # What ./test installs besides: the program works with these, and without.

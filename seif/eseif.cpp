@@ -1,6 +1,7 @@
 #include "seif/eseif.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "seif/mean_recovery.hpp"
 #include "seif/measurement_update.hpp"
@@ -62,6 +63,12 @@ void Eseif::hold_back(const Scan& scan) {
 
 void Eseif::solve(double t) {
   if (!solve_mean(state_)) throw NumericalFailure("mean recovery", t);
+}
+
+bool Eseif::change_option(std::string_view option, double value) {
+  if (option != "theta_x") return false;
+  options_.theta_x = static_cast<int>(value);
+  return true;
 }
 
 Counts Eseif::counts() const {

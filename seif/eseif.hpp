@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "seif/information_filter.hpp"
@@ -25,6 +26,8 @@ class Eseif final : public InformationFilter {
 
   void measurement_update(const Scan& scan, const StageDone& done) override;
   Counts counts() const override;
+  /// theta_x.
+  bool change_option(std::string_view option, double value) override;
 
  private:
   bool overflows(const Scan& scan) const;

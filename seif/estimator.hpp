@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "seif/counts.hpp"
@@ -134,6 +135,10 @@ class Estimator {
       std::span<const LandmarkIds> /*groups*/) const {
     return std::nullopt;
   }
+
+  /// Changes an option from the next motion on. `value` is in the option's range. False: this filter cannot
+  /// change it while it runs; nothing has changed then.
+  virtual bool change_option(std::string_view /*option*/, double /*value*/) { return false; }
 };
 
 }  // namespace seif

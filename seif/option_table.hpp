@@ -76,6 +76,12 @@ class OptionTable {
     return *this;
   }
 
+  /// The filter can change the number that was described last while it runs.
+  OptionTable& changeable() {
+    specs_.back().changeable = true;
+    return *this;
+  }
+
   const std::vector<OptionSpec>& specs() const { return specs_; }
 
   /// `options` holds a value of the right type for every key.

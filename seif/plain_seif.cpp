@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "seif/measurement_update.hpp"
@@ -39,6 +40,16 @@ void PlainSeif::measurement_update(const Scan& scan, const StageDone& done) {
                              : coordinate_descent(state_, options_.random_landmarks, random_);
   if (!recovered) throw NumericalFailure("mean recovery", scan.t);
   done(Stage::mean_recovery);
+}
+
+bool PlainSeif::change_option(std::string_view option, double value) {
+  int* changed = option == "theta_x"     ? &options_.theta_x
+                 : option == "theta_max" ? &options_.theta_max
+                 : option == "K"         ? &options_.random_landmarks
+                                         : nullptr;
+  if (changed == nullptr) return false;
+  *changed = static_cast<int>(value);
+  return true;
 }
 
 Counts PlainSeif::counts() const {

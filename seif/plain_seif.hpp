@@ -2,6 +2,7 @@
 #pragma once
 
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include "seif/information_filter.hpp"
@@ -39,6 +40,8 @@ class PlainSeif final : public InformationFilter {
 
   void measurement_update(const Scan& scan, const StageDone& done) override;
   Counts counts() const override;
+  /// theta_x, theta_max and K.
+  bool change_option(std::string_view option, double value) override;
 
  private:
   PlainSeifOptions options_;

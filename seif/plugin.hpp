@@ -18,7 +18,7 @@ namespace seif {
 /// What a plug-in must have in common with the program that loads it, because they hand each other objects.
 /// Numbers at fixed places, so that any program can read those of any plug-in.
 struct PluginBuild {
-  std::uint32_t interface = 1;  // [-] one more with each change of the headers that a plug-in includes
+  std::uint32_t interface = 2;  // [-] one more with each change of the headers that a plug-in includes
   std::uint32_t eigen = EIGEN_WORLD_VERSION * 10'000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
   std::uint32_t eigen_alignment = EIGEN_MAX_ALIGN_BYTES;           // [byte] of members
   std::uint32_t eigen_heap_alignment = EIGEN_DEFAULT_ALIGN_BYTES;  // [byte] of matrices of any size

@@ -28,6 +28,7 @@ struct OptionSpec {
   std::string not_above = {};             // numbers only: an option of the same type that is no smaller
   std::vector<std::string> choices = {};  // strings only; empty: any
   std::optional<OptionValue> without_names = {};  // the value with which it does without landmarks' names
+  bool changeable = false;  // numbers only: Estimator::change_option() can change it between two updates
   std::string help;                               // one sentence, with the unit
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "seif/exact_mean.hpp"
 #include "seif/full_state.hpp"
@@ -392,6 +393,16 @@ std::optional<std::vector<Eigen::MatrixXd>> Seif::joint_covariances(
 }
 
 std::size_t Seif::memory_bytes() const { return state_.memory_bytes() + keeper_->memory_bytes(); }
+
+bool Seif::change_option(std::string_view option, double value) {
+  if (option == "theta_x" || option == "theta_max") {
+    (option == "theta_x" ? options_.theta_x : options_.theta_max) = static_cast<int>(value);
+    return true;
+  }
+  if (tree_ == nullptr || (option != "gate" && option != "robust_above")) return false;
+  (option == "gate" ? options_.gate : options_.robust_above) = value;
+  return true;
+}
 
 Counts Seif::counts() const {
   return without_start_points(state_, {.blocks_touched = state_.blocks_touched() + keeper_->blocks_touched(),

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,8 @@ class Seif final : public InformationFilter {
       std::span<const LandmarkIds> groups) const override;
   Counts counts() const override;
   std::size_t memory_bytes() const override;
+  /// theta_x and theta_max; with MeanRecovery::tree also gate and robust_above.
+  bool change_option(std::string_view option, double value) override;
   /// With MeanRecovery::tree; null otherwise.
   LocalBelief* local_belief() override { return belief_.get(); }
 

@@ -22,9 +22,11 @@ constexpr double most_links = 1000.0;  // [-]
 
 template <class Struct>
 void add_theta_x(OptionTable<Struct>& table) {
-  table.number(
-      "theta_x", [](Struct& o) -> int& { return o.theta_x; }, {2, most_links},
-      "Landmarks that keep their link to the robot when an update ends [-].");
+  table
+      .number(
+          "theta_x", [](Struct& o) -> int& { return o.theta_x; }, {2, most_links},
+          "Landmarks that keep their link to the robot when an update ends [-].")
+      .changeable();
 }
 
 /// theta_x and theta_max of the filters that sparsify in bursts.
@@ -36,10 +38,12 @@ void add_burst(OptionTable<Struct>& table) {
           "Landmarks that keep their link to the robot in a burst, besides those in view. Alone it changes "
           "little: theta_max says when a burst is due [-].")
       .not_above("theta_max")
+      .changeable()
       .number(
           "theta_max", [](Struct& o) -> int& { return o.theta_max; }, {2, most_links},
           "Links of the robot above which all but theta_x are dropped in one burst. More of them mean more "
-          "links of the map and more work in an update [-].");
+          "links of the map and more work in an update [-].")
+      .changeable();
 }
 
 template <class Struct>
@@ -49,10 +53,12 @@ void add_gates(OptionTable<Struct>& table) {
           "gate", [](Struct& o) -> double& { return o.gate; }, {.min = 0.0},
           "Ignores an observation of a known landmark whose squared normalised innovation is above this; "
           "0: never; 13.8 ignores one correct observation in a thousand [-].")
+      .changeable()
       .number(
           "robust_above", [](Struct& o) -> double& { return o.robust_above; }, {.min = 0.0},
           "Gives less weight, Huber's, to an observation of a known landmark whose innovation is larger "
-          "than this; 0: never; 3 is usual [sigma].");
+          "than this; 0: never; 3 is usual [sigma].")
+      .changeable();
 }
 
 // Data association.
@@ -153,9 +159,11 @@ OptionTable<PlainSeifOptions> plain_seif_table(const PlainSeifOptions& defaults)
 
 EstimatorType seif_report() {
   OptionTable<PlainSeifOptions> table = plain_seif_table({});
-  table.number(
-      "K", [](PlainSeifOptions& o) -> int& { return o.random_landmarks; }, {0, 1'000'000},
-      "Random landmarks that the mean recovery relaxes in each update, besides the active ones [-].");
+  table
+      .number(
+          "K", [](PlainSeifOptions& o) -> int& { return o.random_landmarks; }, {0, 1'000'000},
+          "Random landmarks that the mean recovery relaxes in each update, besides the active ones [-].")
+      .changeable();
   return type_of<PlainSeif>(
       "seif_report",
       "The report's SEIF in constant time, faithful to its sparsification rule and so overconfident.", table);
@@ -188,6 +196,7 @@ EstimatorType eseif() {
       .number(
           "theta_x", [](EseifOptions& o) -> int& { return o.theta_x; }, {2, most_links},
           "Links of the robot above which it is marginalised out and relocated [-].")
+      .changeable()
       .number(
           "relocation_landmarks", [](EseifOptions& o) -> int& { return o.relocation_landmarks; }, {2, 1000},
           "Observations that are held back to relocate the robot from [-].");

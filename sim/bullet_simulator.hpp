@@ -26,6 +26,9 @@ class BulletSimulator final : public Simulator {
   void step(const Command& command) override;
   void place(const worlds::Placement& T_world_robot) override;
   RobotState robot() const override;
+  int add_landmark(const worlds::Landmark& landmark) override;
+  void add_wall(const worlds::Wall& wall) override;
+  void add_patch(const worlds::FrictionPatch& patch) override { robot_.add_patch(patch); }
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
   bool line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const override;
   bool path_is_clear(const Eigen::Vector2d& p_world_from, const Eigen::Vector2d& p_world_to,
@@ -33,8 +36,11 @@ class BulletSimulator final : public Simulator {
   SimulatorCounts counts() const override;
 
  private:
+  void insert_from(int first);
+
   // Members are destroyed from the last to the first: things leave the stepped world before it is destroyed.
-  int step_rate_;  // [Hz]
+  int step_rate_;            // [Hz]
+  double footprint_radius_;  // [m] of the robot
   Solids solids_;
   SensingWorld sensing_;
   SteppedWorld stepped_;

@@ -68,6 +68,24 @@ RobotState KinematicSimulator::robot() const {
   return state;
 }
 
+int KinematicSimulator::add_landmark(const worlds::Landmark& landmark) {
+  if (!(landmark.radius > 0.0)) {
+    throw std::invalid_argument("simulator: a landmark's radius must be positive");
+  }
+  landmarks_.add(landmark.position);
+  radii_.push_back(landmark.radius);
+  largest_radius_ = std::max(largest_radius_, landmark.radius);
+  return static_cast<int>(radii_.size()) - 1;
+}
+
+void KinematicSimulator::add_wall(const worlds::Wall&) {
+  throw std::invalid_argument("simulator: the kinematic engine knows no walls");
+}
+
+void KinematicSimulator::add_patch(const worlds::FrictionPatch&) {
+  throw std::invalid_argument("simulator: the kinematic engine knows no friction");
+}
+
 void KinematicSimulator::landmarks_within(const Eigen::Vector2d& p_world, double radius,
                                           std::vector<int>& out) const {
   out.clear();

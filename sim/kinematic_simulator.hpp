@@ -21,6 +21,9 @@ class KinematicSimulator final : public Simulator {
 
   void place(const worlds::Placement& T_world_robot) override;
   RobotState robot() const override;
+  int add_landmark(const worlds::Landmark& landmark) override;
+  void add_wall(const worlds::Wall& wall) override;
+  void add_patch(const worlds::FrictionPatch& patch) override;
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override;
 
   /// Always true.

@@ -28,6 +28,9 @@ class NearSolids {
   /// stepped world.
   void follow(const Eigen::Vector2d& p_world_robot);
 
+  /// Something was put into the world: the next call of follow() looks for it.
+  void look_again() { p_world_streamed_.reset(); }
+
  private:
   using Present = std::map<int, btCollisionObject>;  // sorted by solid: the same order in every run
 

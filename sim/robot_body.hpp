@@ -46,6 +46,9 @@ class RobotBody {
   /// Moves all bodies together, with their velocities: as if the world had moved under the robot.
   void place(const worlds::Placement& T_world_robot);
 
+  /// Another part of the ground with a friction of its own.
+  void add_patch(const worlds::FrictionPatch& patch) { physics_.patches.push_back(patch); }
+
   Eigen::Vector2d position() const;
 
   /// The state without its time.

@@ -25,7 +25,7 @@ struct Gather : btBroadphaseAabbCallback {
 
 /// Whether the ray hits anything except the target.
 struct AnyOtherHit : btCollisionWorld::RayResultCallback {
-  explicit AnyOtherHit(int target_landmark) : target(target_landmark) {}
+  explicit AnyOtherHit(int target_solid) : target(target_solid) {}
   bool needsCollision(btBroadphaseProxy* proxy) const override { return index_of(*proxy) != target; }
   btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool) override {
     m_collisionObject = result.m_collisionObject;
@@ -53,17 +53,19 @@ SensingWorld::SensingWorld(const Solids& solids)
       broadphase_(&no_pairs_),
       world_(&dispatcher_, &broadphase_, &configuration_) {
   broadphase_.m_deferedcollide = true;  // do not look for pairs at each insertion
-  for (int i = 0; i < solids_.size(); ++i) {
-    btCollisionObject& object = objects_.emplace_back();
-    object.setCollisionShape(&solids_.shape(i));
-    object.setWorldTransform(solids_.T_world_solid(i));
-    object.setUserIndex(i);
-    world_.addCollisionObject(&object, btBroadphaseProxy::StaticFilter, btBroadphaseProxy::AllFilter);
-  }
+  for (int i = 0; i < solids_.size(); ++i) insert(i);
   broadphase_.optimize();  // builds one balanced tree; insertion one by one gives a worse one
 }
 
 SensingWorld::~SensingWorld() = default;
+
+void SensingWorld::insert(int solid) {
+  btCollisionObject& object = objects_.emplace_back();
+  object.setCollisionShape(&solids_.shape(solid));
+  object.setWorldTransform(solids_.T_world_solid(solid));
+  object.setUserIndex(solid);
+  world_.addCollisionObject(&object, btBroadphaseProxy::StaticFilter, btBroadphaseProxy::AllFilter);
+}
 
 void SensingWorld::solids_in_box(const Eigen::Vector2d& min, const Eigen::Vector2d& max,
                                  std::vector<int>& out) const {
@@ -81,8 +83,9 @@ void SensingWorld::landmarks_within(const Eigen::Vector2d& p_world, double radiu
   const Eigen::Vector2d reach(radius, radius);
   solids_in_box(p_world - reach, p_world + reach, out);
   std::erase_if(out, [&](int solid) {
-    return !solids_.is_landmark(solid) || (solids_.landmark(solid).centre - p_world).norm() > radius;
+    return !solids_.is_landmark(solid) || (solids_.disk(solid).centre - p_world).norm() > radius;
   });
+  for (int& solid : out) solid = solids_.landmark_of(solid);  // still ascending: later landmarks are later solids
 }
 
 bool SensingWorld::line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const {
@@ -93,11 +96,12 @@ bool SensingWorld::line_of_sight(const Eigen::Vector2d& p_world_sensor, int land
     return true;
   }
   // Bullet's ray ignores a convex shape that it starts in.
-  if (!piece_is_clear({p_world_sensor, p_world_sensor}, 0.0, landmark)) {
+  const int solid = solids_.solid_of(landmark);
+  if (!piece_is_clear({p_world_sensor, p_world_sensor}, 0.0, solid)) {
     return false;
   }
   const Eigen::Vector2d p_world_face = target.centre + target.radius / range * to_sensor;
-  AnyOtherHit hit(landmark);
+  AnyOtherHit hit(solid);
   world_.rayTest(btVector3(p_world_sensor.x(), p_world_sensor.y(), 0.0),
                  btVector3(p_world_face.x(), p_world_face.y(), 0.0), hit);
   ++counts_.rays;

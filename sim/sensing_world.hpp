@@ -33,10 +33,13 @@ class SensingWorld {
   SensingWorld(const SensingWorld&) = delete;
   SensingWorld& operator=(const SensingWorld&) = delete;
 
+  /// To be called for each thing that is added to the solids.
+  void insert(int solid);
+
   /// The solids whose bounding boxes overlap the axis-aligned box, ascending; replaces the content of `out`.
   void solids_in_box(const Eigen::Vector2d& min, const Eigen::Vector2d& max, std::vector<int>& out) const;
 
-  /// The landmarks whose centres are within `radius` [m], ascending; replaces the content of `out`.
+  /// Indices of the landmarks whose centres are within `radius` [m], ascending; replaces the content of `out`.
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const;
 
   /// Whether a ray from p_world_sensor to the near face of the landmark hits nothing else. True if the sensor

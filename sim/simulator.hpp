@@ -54,6 +54,17 @@ class Simulator {
 
   virtual RobotState robot() const = 0;
 
+  /// Puts a landmark into the world, and returns its index, which is the next one. Throws std::invalid_argument if
+  /// its radius is not positive, or if the robot stands there; then nothing has changed.
+  virtual int add_landmark(const worlds::Landmark& landmark) = 0;
+
+  /// The same for a wall. Throws std::invalid_argument in an engine without walls, too.
+  virtual void add_wall(const worlds::Wall& wall) = 0;
+
+  /// Gives a part of the ground another friction; where patches overlap, the latest counts. Throws
+  /// std::invalid_argument in an engine without friction.
+  virtual void add_patch(const worlds::FrictionPatch& patch) = 0;
+
   /// Indices of the landmarks whose centre is within `radius` [m] of p_world, ascending; replaces the content
   /// of `out`.
   virtual void landmarks_within(const Eigen::Vector2d& p_world, double radius,

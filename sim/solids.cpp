@@ -38,6 +38,60 @@ Solids::Solids(const worlds::World& world) : half_height_(tall_enough(world.robo
   for (const worlds::Wall& wall : world.walls) {
     add_wall(wall);
   }
+  first_landmarks_ = landmarks();
+  first_rectangles_ = static_cast<int>(rectangles_.size());
+}
+
+void Solids::add(const worlds::Landmark& landmark) {
+  add_landmark(landmark);
+  added_landmarks_.push_back(size() - 1);
+  added_.push_back({true, landmarks() - 1});
+}
+
+void Solids::add(const worlds::Wall& wall) {
+  const std::size_t rectangles = rectangles_.size();
+  const std::size_t shapes = shapes_.size();
+  try {
+    add_wall(wall);
+  } catch (const std::invalid_argument&) {
+    rectangles_.resize(rectangles);
+    shapes_.resize(shapes);
+    throw;
+  }
+  for (std::size_t i = rectangles; i < rectangles_.size(); ++i) added_.push_back({false, static_cast<int>(i)});
+}
+
+const Solids::Added* Solids::added(int solid) const {
+  const int first = first_landmarks_ + first_rectangles_;
+  return solid < first ? nullptr : &added_[static_cast<std::size_t>(solid - first)];
+}
+
+bool Solids::is_landmark(int solid) const {
+  const Added* later = added(solid);
+  return later == nullptr ? solid < first_landmarks_ : later->is_landmark;
+}
+
+int Solids::landmark_of(int solid) const {
+  const Added* later = added(solid);
+  return later == nullptr ? solid : later->number;
+}
+
+int Solids::solid_of(int landmark) const {
+  return landmark < first_landmarks_ ? landmark
+                                     : added_landmarks_[static_cast<std::size_t>(landmark - first_landmarks_)];
+}
+
+void Solids::remove_from(int solid) {
+  while (size() > solid) {
+    shapes_.pop_back();
+    if (added_.back().is_landmark) {
+      disks_.pop_back();
+      added_landmarks_.pop_back();
+    } else {
+      rectangles_.pop_back();
+    }
+    added_.pop_back();
+  }
 }
 
 void Solids::add_landmark(const worlds::Landmark& landmark) {
@@ -84,17 +138,18 @@ void Solids::add_wall(const worlds::Wall& wall) {
 }
 
 double Solids::distance_to(int solid, const Segment& way) const {
-  return is_landmark(solid) ? distance(way, landmark(solid)) : distance(way, rectangle(solid));
+  return is_landmark(solid) ? distance(way, disk(solid)) : distance(way, rectangle(solid));
 }
 
 btTransform Solids::T_world_solid(int solid) const {
   const double heading = is_landmark(solid) ? 0.0 : rectangle(solid).heading;
-  const Eigen::Vector2d& centre = is_landmark(solid) ? landmark(solid).centre : rectangle(solid).centre;
+  const Eigen::Vector2d& centre = is_landmark(solid) ? disk(solid).centre : rectangle(solid).centre;
   return btTransform(btQuaternion(btVector3(0.0, 0.0, 1.0), heading), btVector3(centre.x(), centre.y(), 0.0));
 }
 
 const Rectangle& Solids::rectangle(int solid) const {
-  return rectangles_[static_cast<std::size_t>(solid) - disks_.size()];
+  const Added* later = added(solid);
+  return rectangles_[static_cast<std::size_t>(later == nullptr ? solid - first_landmarks_ : later->number)];
 }
 
 }  // namespace sim

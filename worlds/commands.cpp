@@ -19,9 +19,9 @@ namespace {
 constexpr double largest_value = 1e6;  // in any column; no run needs larger values
 constexpr std::array<const char*, 3> columns = {"t", "v", "omega"};
 
-/// The row's numbers, or nothing and a message.
-std::optional<VelocityCommand> parse_row(std::string_view row, std::string& message) {
-  std::array<double, columns.size()> values{};
+/// What a row says, or nothing and a message.
+std::optional<Takeover> parse_row(std::string_view row, bool may_release, std::string& message) {
+  std::array<std::string_view, columns.size()> cells;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const bool last = i + 1 == columns.size();
     const std::size_t comma = last ? row.size() : row.find(',');
@@ -29,27 +29,31 @@ std::optional<VelocityCommand> parse_row(std::string_view row, std::string& mess
       message = "expected three numbers: t,v,omega";
       return std::nullopt;
     }
-    const std::string_view cell = row.substr(0, comma);
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
-    if (error != std::errc() || end != cell.data() + cell.size() || !(std::abs(values[i]) <= largest_value)) {
-      message = fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest_value, cell);
-      return std::nullopt;
-    }
+    cells[i] = row.substr(0, comma);
     row.remove_prefix(last ? comma : comma + 1);
   }
-  return VelocityCommand{values[0], values[1], values[2]};
+  std::array<double, columns.size()> values{};
+  const bool releases = may_release && cells[1].empty() && cells[2].empty();
+  for (std::size_t i = 0; i < (releases ? 1 : columns.size()); ++i) {
+    const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), values[i]);
+    if (error != std::errc() || end != cells[i].data() + cells[i].size() ||
+        !(std::abs(values[i]) <= largest_value)) {
+      message = fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest_value, cells[i]);
+      return std::nullopt;
+    }
+  }
+  return Takeover{values[0], releases, values[1], values[2]};
 }
 
-}  // namespace
-
-std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
-                                           std::vector<Problem>& problems) {
+/// Reads the rows; `key` is that of the file's name.
+std::vector<Takeover> read_rows(const std::filesystem::path& file, const std::string& key, bool may_release,
+                                std::vector<Problem>& problems) {
   const auto source = std::make_shared<const std::string>(file.string());
   int line = 0;
   const auto refuse = [&](std::string message) {
-    problems.push_back({{source, line, line > 0 ? 1 : 0}, std::move(message), "drive.file"});
+    problems.push_back({{source, line, line > 0 ? 1 : 0}, std::move(message), key});
   };
-  std::vector<VelocityCommand> commands;
+  std::vector<Takeover> commands;
   if (const std::string why = why_no_input(file); !why.empty()) {
     refuse("the file of commands cannot be read: " + why);
     return commands;
@@ -67,7 +71,7 @@ std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
       return commands;
     }
     std::string message;
-    const std::optional<VelocityCommand> command = parse_row(row, message);
+    const std::optional<Takeover> command = parse_row(row, may_release, message);
     if (!command) {
       refuse(message);
     } else if (command->t < 0 || (!commands.empty() && command->t <= commands.back().t)) {
@@ -78,6 +82,20 @@ std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
   }
   if (line < 2) refuse("there are no commands in the file");
   return commands;
+}
+
+}  // namespace
+
+std::vector<VelocityCommand> read_commands(const std::filesystem::path& file,
+                                           std::vector<Problem>& problems) {
+  std::vector<VelocityCommand> commands;
+  for (const Takeover& row : read_rows(file, "drive.file", false, problems))
+    commands.push_back({row.t, row.v, row.omega});
+  return commands;
+}
+
+std::vector<Takeover> read_takeover(const std::filesystem::path& file, std::vector<Problem>& problems) {
+  return read_rows(file, "drive.takeover_file", true, problems);
 }
 
 }  // namespace worlds

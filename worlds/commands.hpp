@@ -13,4 +13,7 @@ namespace worlds {
 /// row to row. Adds a problem for each row that is wrong; use the result only if there is no problem.
 std::vector<VelocityCommand> read_commands(const std::filesystem::path& file, std::vector<Problem>& problems);
 
+/// The same for the file of a takeover, in which both v and omega of a row may be empty.
+std::vector<Takeover> read_takeover(const std::filesystem::path& file, std::vector<Problem>& problems);
+
 }  // namespace worlds

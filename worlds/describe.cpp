@@ -30,7 +30,6 @@ constexpr double smallest_angle_sd = 1e-5;         // [deg] logs allow 1e-7 rad
 constexpr double largest_angle_sd = 180;           // [deg]
 constexpr double largest_mount_offset = 10;        // [m]
 constexpr double most_false_detections = 100;      // [-] in a scan, on average; all of them may be linked
-constexpr double largest_sd_factor = 1e6;          // [-]
 constexpr double shortest_interval = 1e-6;         // [s]
 constexpr double largest_sample = 1e6;             // [-]
 constexpr double slowest_film = 1e-3;              // [-] a slower one would not end
@@ -62,6 +61,37 @@ void check_corners(Fields& fields, const Eigen::Vector2d& min, const Eigen::Vect
     fields.problem("max_m", "'max_m' must be more than 'min_m' in x and in y");
   }
 }
+
+}  // namespace
+
+void describe_landmark(Fields& fields, Landmark& landmark) {
+  fields.number("x_m", landmark.position.x(), coordinate(), "east", Need::required);
+  fields.number("y_m", landmark.position.y(), coordinate(), "north", Need::required);
+  fields.number("radius_m", landmark.radius, between(smallest_landmark_radius, largest_landmark_radius),
+                "radius");
+}
+
+void describe_patch(Fields& fields, FrictionPatch& patch) {
+  fields.vector2("min_m", patch.min, coordinate(), "lower left corner", Need::required);
+  fields.vector2("max_m", patch.max, coordinate(), "upper right corner", Need::required);
+  fields.number("friction", patch.friction, between(0, 10), "friction coefficient between wheels and ground");
+  check_corners(fields, patch.min, patch.max);
+}
+
+void describe_wall(Fields& fields, Wall& wall) {
+  fields.points("points_m", wall.points, coordinate(), 2, "corners", Need::required);
+  fields.number("thickness_m", wall.thickness, more_than_up_to(0, largest_ground), "thickness");
+  fields.number("height_m", wall.height, more_than_up_to(0, largest_height), "height");
+  fields.boolean("closed", wall.closed, "whether it also runs from the last point back to the first");
+  const std::size_t expected = wall.points.size() - (wall.closed ? 0 : 1);
+  if (fields.sound() && !wall.points.empty() && legs(wall.points, wall.closed).size() != expected) {
+    fields.problem("points_m", wall.closed
+                                   ? "two corners in a row are equal (a closed wall returns by itself)"
+                                   : "two corners in a row are equal");
+  }
+}
+
+namespace {
 
 void check_robot(Fields& fields, const Robot& robot) {
   if (!fields.sound()) return;
@@ -116,23 +146,9 @@ void describe_physics(Fields& fields, Physics& physics) {
   fields.number("friction", physics.friction, between(0, 10),
                 "friction coefficient between wheels and ground");
   fields.list(
-      "patches", physics.patches,
-      [](Fields& inner, FrictionPatch& patch) {
-        inner.vector2("min_m", patch.min, coordinate(), "lower left corner", Need::required);
-        inner.vector2("max_m", patch.max, coordinate(), "upper right corner", Need::required);
-        inner.number("friction", patch.friction, between(0, 10),
-                     "friction coefficient between wheels and ground");
-        check_corners(inner, patch.min, patch.max);
-      },
+      "patches", physics.patches, describe_patch,
       "rectangles of the ground with a friction of their own; the later one counts");
   check_length(fields, "patches", physics.patches.size());
-}
-
-void describe_landmark(Fields& fields, Landmark& landmark) {
-  fields.number("x_m", landmark.position.x(), coordinate(), "east", Need::required);
-  fields.number("y_m", landmark.position.y(), coordinate(), "north", Need::required);
-  fields.number("radius_m", landmark.radius, between(smallest_landmark_radius, largest_landmark_radius),
-                "radius");
 }
 
 void describe_region(Fields& fields, Generator& generator, const Eigen::Vector2d& ground_size) {
@@ -241,19 +257,6 @@ void describe_box(Fields& fields, Box& box) {
   fields.number("height_m", box.height, more_than_up_to(0, largest_height), "height");
 }
 
-void describe_wall(Fields& fields, Wall& wall) {
-  fields.points("points_m", wall.points, coordinate(), 2, "corners", Need::required);
-  fields.number("thickness_m", wall.thickness, more_than_up_to(0, largest_ground), "thickness");
-  fields.number("height_m", wall.height, more_than_up_to(0, largest_height), "height");
-  fields.boolean("closed", wall.closed, "whether it also runs from the last point back to the first");
-  const std::size_t expected = wall.points.size() - (wall.closed ? 0 : 1);
-  if (fields.sound() && !wall.points.empty() && legs(wall.points, wall.closed).size() != expected) {
-    fields.problem("points_m", wall.closed
-                                   ? "two corners in a row are equal (a closed wall returns by itself)"
-                                   : "two corners in a row are equal");
-  }
-}
-
 void describe_pursuit(Fields& fields, Drive& drive) {
   fields.number("speed_m_s", drive.speed, more_than_up_to(0, highest_speed), "cruising speed");
   fields.number("lookahead_m", drive.lookahead, between(0.001, largest_clearance),
@@ -315,6 +318,10 @@ void describe_drive(Fields& fields, Drive& drive, SerpentineArea& area) {
   drive.closed = drive.closed || drive.mode == DriveMode::loop;
   fields.text("pose_from", drive.pose_from,
               "whose pose steers: truth, odometry, or the name of an estimator");
+  fields.text("takeover_file", drive.takeover_file,
+              "CSV file t,v,omega: from time t on, this command moves the robot and not the drive; a row without v and "
+              "omega gives the wheel back to the drive",
+              Need::optional);
 }
 
 void describe_encoders(Fields& fields, Encoders& encoders) {

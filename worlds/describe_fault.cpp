@@ -11,8 +11,8 @@
 namespace worlds {
 namespace {
 
-constexpr std::array<std::string_view, 5> kind_names = {"bad_observation", "outlier", "encoder_jump",
-                                                        "silence", "kidnapping"};
+constexpr std::array<std::string_view, 9> kind_names = {
+    "bad_observation", "outlier", "encoder_jump", "silence", "kidnapping", "ice", "wall", "landmark", "option"};
 constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infinite", "absurd"};
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
@@ -46,6 +46,19 @@ std::vector<Fields::Case> fault_cases(Fault& fault) {
        }},
       {"kidnapping", "the robot is put somewhere else, and nothing tells it",
        [&](Fields& fields) { describe_placement(fields, fault.to, Need::required); }},
+      {"ice", "a part of the ground gets another friction",
+       [&](Fields& fields) { describe_patch(fields, fault.patch); }},
+      {"wall", "a wall appears", [&](Fields& fields) { describe_wall(fields, fault.wall); }},
+      {"landmark", "a landmark appears; it gets the next free id",
+       [&](Fields& fields) { describe_landmark(fields, fault.landmark); }},
+      {"option", "an option of an estimator changes, from the next measurement on",
+       [&](Fields& fields) {
+         fields.text("estimator", fault.estimator, "the name of the estimator", Need::required);
+         fields.text("option", fault.option,
+                     "its key; it is one that can change, or odometry_sd_factor or observation_sd_factor",
+                     Need::required);
+         fields.number("new_value", fault.option_value, any_number(), "the value that it gets", Need::required);
+       }},
   };
 }
 

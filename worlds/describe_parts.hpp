@@ -9,6 +9,8 @@
 
 #include "worlds/fault.hpp"
 #include "worlds/fields.hpp"
+#include "worlds/robot.hpp"
+#include "worlds/solids.hpp"
 
 namespace worlds {
 
@@ -40,6 +42,10 @@ void describe_choice(Fields& fields, std::string_view key, Enum& value,
 
 /// The range of a coordinate.
 inline Range coordinate() { return between(-largest_ground, largest_ground); }
+
+void describe_landmark(Fields& fields, Landmark& landmark);
+void describe_patch(Fields& fields, FrictionPatch& patch);
+void describe_wall(Fields& fields, Wall& wall);
 
 /// `farthest` [m]: the largest coordinate, in x and in y.
 void describe_placement(Fields& fields, Placement& placement, Need need, double farthest = largest_ground);

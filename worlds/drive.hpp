@@ -16,6 +16,14 @@ struct VelocityCommand {
   double omega = 0.0;  // [rad/s]
 };
 
+/// Somebody takes the wheel, or gives it back, at a time.
+struct Takeover {
+  double t = 0.0;         // [s]
+  bool released = false;  // the drive moves the robot again
+  double v = 0.0;         // [m/s]
+  double omega = 0.0;     // [rad/s]
+};
+
 struct Drive {
   DriveMode mode = DriveMode::hold;
   std::string pose_from = "truth";        // the pose that steers: truth, odometry, or an estimator's name
@@ -26,6 +34,8 @@ struct Drive {
   double clearance = 0.5;                 // [m] explore: from the robot's centre to anything solid
   std::vector<VelocityCommand> commands;  // commands: in the order of time
   std::string commands_file;              // commands: the file with its resolved path
+  std::vector<Takeover> takeover;         // in the order of time
+  std::string takeover_file;              // the file with its resolved path; empty: none
 };
 
 }  // namespace worlds

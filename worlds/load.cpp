@@ -39,6 +39,27 @@ std::string full_path(const std::filesystem::path& file, const Node& node) {
 
 /// Lays out the path of the drive, or reads its commands. The document gets the absolute path of the commands'
 /// file, since the document may move to another folder.
+/// Writes the full path of a file into the document, and returns it.
+std::string resolve_file(const std::filesystem::path& world, const std::string& key, Node& document) {
+  Node* node = document.find("drive")->find(key.substr(key.find('.') + 1));
+  std::string path = full_path(world, *node);
+  *node = text_node(path, node->where);
+  return path;
+}
+
+template <class Read>
+auto read_named_file(const std::string& key, const std::string& path, const Read& read, const Node& document,
+                     std::vector<Problem>& problems) {
+  std::vector<Problem> found;
+  auto rows = read(path, found);
+  if (!found.empty() && found.front().where.line == 0) {  // not at one line: say where the file was named
+    refuse_value(document, key, to_string(found.front()), problems);
+  } else {
+    problems.insert(problems.end(), found.begin(), found.end());
+  }
+  return rows;
+}
+
 void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Node& document,
                    std::vector<Problem>& problems) {
   Drive& drive = world_file.world.drive;
@@ -48,16 +69,13 @@ void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Nod
     drive.path = serpentine(min, max, lane);
   }
   if (drive.mode == DriveMode::commands) {
-    Node* node = document.find("drive")->find("file");
-    drive.commands_file = full_path(file, *node);
-    *node = text_node(drive.commands_file, node->where);
-    std::vector<Problem> found;
-    drive.commands = read_commands(drive.commands_file, found);
-    if (!found.empty() && found.front().where.line == 0) {  // not at one line: say where the file was named
-      refuse_value(document, "drive.file", to_string(found.front()), problems);
-    } else {
-      problems.insert(problems.end(), found.begin(), found.end());
-    }
+    drive.commands_file = resolve_file(file, "drive.file", document);
+    drive.commands = read_named_file("drive.file", drive.commands_file, read_commands, document, problems);
+  }
+  if (!drive.takeover_file.empty()) {
+    drive.takeover_file = resolve_file(file, "drive.takeover_file", document);
+    drive.takeover =
+        read_named_file("drive.takeover_file", drive.takeover_file, read_takeover, document, problems);
   }
 }
 

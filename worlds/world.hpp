@@ -20,6 +20,9 @@ namespace worlds {
 
 using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
 
+/// A factor for the noise that an estimator assumes is at most this, and at least its inverse. [-]
+inline constexpr double largest_sd_factor = 1e6;
+
 /// An estimator to run, under its own name. Only the estimator knows the meaning of its options.
 struct EstimatorChoice {
   std::string name;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/live/live.hpp"
 #include "harness/run/prepared_run.hpp"
 #include "seif/registry.hpp"
 #include "worlds/load.hpp"
@@ -22,6 +23,7 @@ struct CommandLine {
 };
 
 void add_run(CommandLine line);
+void add_live(CommandLine line);
 void add_replay(CommandLine line);
 void add_calibrate(CommandLine line);
 void add_score(CommandLine line);
@@ -60,6 +62,9 @@ inline constexpr int most_jobs = 256;            // [-] runs at the same time
 
 /// Adds --format, --robot, --truth and --noise.
 void add_log_options(CLI::App& command, LogChoice& log);
+
+/// Adds --port and --bind.
+void add_page_options(CLI::App& command, LiveOptions& options);
 
 /// Adds the output options. For the help texts: `folder` is the default of --out, and `printed` says what
 /// --json prints.

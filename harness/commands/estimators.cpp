@@ -49,6 +49,7 @@ Json option_json(const seif::OptionSpec& option) {
           {"default", std::visit([](const auto& value) { return Json(value); }, option.fallback)},
           {"min", limit(option.min)},
           {"max", limit(option.max)},
+          {"changeable", option.changeable},
           {"choices", option.choices.empty() ? Json(nullptr) : Json(option.choices)},
           {"help", option.help}};
 }

@@ -34,6 +34,7 @@ void use_plugin(const std::string& library, seif::Registry& registry) {
 
 void add_commands(const harness::CommandLine& line) {
   harness::add_run(line);
+  harness::add_live(line);
   harness::add_replay(line);
   harness::add_calibrate(line);
   harness::add_score(line);

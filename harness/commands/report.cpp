@@ -9,6 +9,7 @@
 #include "harness/figures/figure_plot.hpp"
 #include "harness/figures/gnuplot.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/files/script_library.hpp"
 #include "harness/report/pages.hpp"
 #include "harness/terminal/messages.hpp"
 
@@ -25,20 +26,14 @@ struct ReportArguments {
   bool force = false;
 };
 
-/// The paths where Debian and others install Chart.js.
-constexpr const char* library_files[] = {"/usr/share/javascript/chart.js/chart.min.js",
-                                         "/usr/share/nodejs/chart.js/dist/chart.min.js",
-                                         "/usr/local/share/javascript/chart.js/chart.min.js"};
-
-std::string read_library(const std::string& file) {
-  if (!file.empty()) return read_whole_file(file);
-  for (const char* path : library_files) {
-    if (std::filesystem::exists(path)) return read_whole_file(path);
+std::string library_of(const ReportArguments& arguments) {
+  if (!arguments.library.empty()) return read_whole_file(arguments.library);
+  try {
+    return read_script(chart_js());
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("report: {}; --chart-js FILE says where its chart.min.js is", error.what()));
   }
-  throw std::runtime_error(
-      "report: the plotting library Chart.js is missing (Debian's package libjs-chart.js); --chart-js FILE "
-      "says "
-      "where its chart.min.js is");
 }
 
 /// Throws BadInput if a figure may not be written there.
@@ -63,7 +58,7 @@ bool draw_figures(const Page& page, const std::filesystem::path& folder) {
 
 int report(const ReportArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path folder = arguments.folder;
-  const std::string library = read_library(arguments.library);
+  const std::string library = library_of(arguments);
   const std::filesystem::path usual = folder / "report.html";
   const std::filesystem::path file = arguments.out.empty() ? usual : std::filesystem::path(arguments.out);
   const Existing others = arguments.force ? Existing::replace : Existing::keep;

@@ -8,6 +8,7 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/film/film.hpp"
+#include "harness/live/live.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/overrides.hpp"
 #include "harness/run/prepared_run.hpp"
@@ -27,6 +28,8 @@ struct RunArguments {
   std::string seed;                // checked as part of the world; empty: the file's seed
   std::optional<double> duration;  // [s]
   bool film = false;
+  bool live = false;
+  LiveOptions page;
   bool resume = false;  // then `world` is the folder of a run
   OutputArguments output;
 };
@@ -46,6 +49,10 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   PreparedRun run = prepare_run(world, registry);
   open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
   write_world(run.plan.folder, world, loaded.resolved);
+  if (arguments.live) {
+    LiveOnlookers onlookers(world, run, registry, arguments.page);
+    return print_result(execute(run, &onlookers.listener()), run.plan.folder, arguments.output);
+  }
   if (!arguments.film) return print_result(execute(run), run.plan.folder, arguments.output);
   worlds::World filmed = world;
   leave_out_missing(filmed, *run.believers);
@@ -78,6 +85,7 @@ void add_run(CommandLine line) {
       "  seifbed run worlds/courtyard.yaml --seed 7 --duration 60 --out /tmp/seven\n"
       "  seifbed run worlds/courtyard.yaml --set drive.pose_from=odometry --set estimators.ekf={}\n"
       "  seifbed run worlds/courtyard.yaml --film --set film.camera=chase --set film.layers.rays=false\n"
+      "  seifbed run worlds/forest.yaml --live\n"
       "  seifbed run --resume runs/courtyard-1\n"
       "  seifbed run worlds/courtyard.yaml --json | jq .estimators.ekf.nees_pose");
   auto arguments = std::make_shared<RunArguments>();
@@ -92,12 +100,16 @@ void add_run(CommandLine line) {
   command->add_flag("--film", arguments->film,
                     "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
                     "drawing between the updates makes their times a little longer");
+  CLI::Option* look = command->add_flag(
+      "--live", arguments->live, "Let browsers look at it as it runs; it prints the address. See seifbed live");
+  look->excludes(command->get_option("--film"));
+  add_page_options(*command, arguments->page);
   CLI::Option* resume = command->add_flag(
       "--resume", arguments->resume,
       "WORLD is the folder of a run that was interrupted, killed or cut off by a full disk: complete it, "
       "with the bytes that it would have had but for times; it is simulated again, which takes as long");
   add_output_options(*command, arguments->output, "runs/<world>-<seed>");
-  for (const char* other : {"--set", "--seed", "--duration", "--film", "--out"})
+  for (const char* other : {"--set", "--seed", "--duration", "--film", "--live", "--out"})
     resume->excludes(command->get_option(other));
   command->callback([=, &registry = line.registry, &code = line.exit_code] {
     code = guarded([&] {

@@ -1,6 +1,7 @@
 // The landmark sensor in a film: its range and field of view, and the rays of the latest scan.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace harness {
 
 class Sight {
  public:
+  enum class Kind { seen, hidden, false_detection };
+  struct Ray {
+    Eigen::Vector2d end;  // p_world [m]
+    Kind kind;
+  };
+
   /// `knows_world`: also find the landmarks that something hides; their lines of sight are tested in the
   /// world.
   Sight(const worlds::World& world, bool knows_world, const seif::Pose2& T_robot_sensor);
@@ -26,13 +33,10 @@ class Sight {
                    render::Things& things) const;
   void append_range(const seif::Pose2& T_world_robot, float scale, render::Things& things) const;
 
- private:
-  enum class Kind { seen, hidden, false_detection };
-  struct Ray {
-    Eigen::Vector2d end;  // p_world [m]
-    Kind kind;
-  };
+  /// The rays of the latest scan.
+  const std::vector<Ray>& rays() const { return rays_; }
 
+ private:
   void find_hidden(const seif::Pose2& T_world_sensor);
 
   worlds::LandmarkSensor sensor_;

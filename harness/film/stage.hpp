@@ -21,6 +21,9 @@ class Stage {
   Stage(const worlds::World& world, bool knows_world, const LogDescription& log,
         const std::optional<Area>& path);
 
+  /// A landmark that joins the world during the run, and the log's landmarks.
+  void add_landmark(const TrueLandmark& landmark) { posts_.put(landmark.landmark, landmark.position); }
+
   /// What an overview shows in full. [m]
   const Area& subject() const { return subject_; }
   /// The radius of interest around the robot. [m]
@@ -34,6 +37,9 @@ class Stage {
   void append_robot(const TruePose& pose, double size, render::Things& things) const;
   /// The length of the robot. [m]
   double robot_length() const;
+
+  /// Walls, boxes, and ground with a friction of its own.
+  const std::vector<render::Solid>& solids() const { return solids_; }
 
   /// The true position p_world_landmark; empty if it is not known. [m]
   std::optional<Eigen::Vector2d> true_position(seif::LandmarkId id) const { return posts_.position(id); }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "harness/files/base64.hpp"
+#include "harness/files/html_template.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/film/poster.hpp"
 #include "harness/report/page_files.hpp"
@@ -14,20 +15,6 @@
 namespace harness {
 
 namespace {
-
-using Places = std::map<std::string_view, std::string>;
-
-/// Replaces each {{name}} once; the inserted text is not searched again.
-std::string filled(std::string_view text, const Places& places) {
-  std::string result;
-  while (true) {
-    const std::size_t begin = text.find("{{");
-    if (begin == std::string_view::npos) return result.append(text);
-    const std::size_t end = text.find("}}", begin);
-    result.append(text.substr(0, begin)).append(places.at(text.substr(begin + 2, end - begin - 2)));
-    text.remove_prefix(end + 2);
-  }
-}
 
 std::string facts_html(const std::vector<Fact>& facts) {
   std::string html = "<dl>\n";
@@ -205,7 +192,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string to_html(const Page& page, const std::filesystem::path& file, std::string_view library) {
-  return filled(page_html(), {{"title", escaped(page.title)},
+  return fill_template(page_html(), {{"title", escaped(page.title)},
                               {"style", std::string(page_css())},
                               {"facts", facts_html(page.facts)},
                               {"notes", notes_html(page.notes)},

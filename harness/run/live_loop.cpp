@@ -28,6 +28,9 @@ double microseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double, std::micro>(duration).count();
 }
 
+double time_of(const OdometryEvent& event) { return event.odometry.t; }
+double time_of(const ScanEvent& event) { return event.scan.t; }
+
 void add(std::optional<double>& sum, double value) { sum = sum.value_or(0.0) + value; }
 
 std::optional<double>& stage(UpdateTimes& times, seif::Stage which) {
@@ -108,23 +111,41 @@ LiveLoop::LiveLoop(Stream& stream, Believers& believers, std::vector<RunListener
   counts_.t = log.start_t;
   for (const LiveEstimator& estimator : believers.estimators)
     blocks_touched_.push_back(estimator.filter->counts().blocks_touched);
-  stage_done_ = [this](seif::Stage done) {
-    const Clock::time_point now = Clock::now();
-    add(stage(*running_, done), microseconds(now - stage_begin_));
-    stage_begin_ = now;
-  };
+  stage_done_ = [this](seif::Stage done) { end_stage(done); };
+}
+
+void LiveLoop::end_stage(seif::Stage done) {
+  Clock::time_point now = Clock::now();
+  add(stage(times_[running_.estimator], done), microseconds(now - running_.stage_begin));
+  if (watch_) {
+    watch_(running_.estimator, done);
+    const Clock::time_point seen = Clock::now();
+    running_.watched += seen - now;
+    now = seen;
+  }
+  running_.stage_begin = now;
 }
 
 void LiveLoop::run(const std::atomic<bool>& stop, const std::function<void(const LoopCounts&)>& progress) {
   Event event;
   while (!stop) {
     if (!stream_.next(event)) return;
-    if (!screening_.admit(event)) continue;
-    ++counts_.events;
-    std::visit([this](const auto& e) { take(e); }, event);
+    if (!take(event)) continue;
     if (progress && std::holds_alternative<ScanEvent>(event)) progress(counts_);
   }
   counts_.interrupted = true;
+}
+
+bool LiveLoop::take(Event& event) {
+  if (!screening_.admit(event)) return false;
+  ++counts_.events;
+  std::visit(
+      [this](const auto& admitted) {
+        changes_.apply_before(time_of(admitted), believers_.estimators);
+        take(admitted);
+      },
+      event);
+  return true;
 }
 
 void LiveLoop::take(const OdometryEvent& event) {
@@ -175,11 +196,11 @@ void LiveLoop::measurement_update(std::size_t index, const ScanEvent& event) {
   if (!estimator.failure.empty()) return;
   const seif::Scan& scan = scaled(event.scan, estimator.observation_sd_factor);
   guard(estimator, event.scan.t, [&] {
-    running_ = &times_[index];
+    if (watch_) watch_(index, seif::Stage::motion);
     const Clock::time_point begin = Clock::now();
-    stage_begin_ = begin;
+    running_ = {index, begin, {}};
     estimator.filter->measurement_update(scan, stage_done_);
-    running_->update += microseconds(Clock::now() - begin);
+    times_[index].update += microseconds(Clock::now() - begin - running_.watched);
     if (!is_finite(estimator.filter->pose())) throw std::runtime_error("the pose is not finite any more");
   });
   if (!estimator.failure.empty()) return;

@@ -9,8 +9,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "harness/run/live_estimator.hpp"
+#include "harness/run/option_changes.hpp"
 #include "harness/score/true_names.hpp"
 #include "harness/stream/log_description.hpp"
 #include "harness/stream/run_listener.hpp"
@@ -21,15 +24,6 @@
 #include "worlds/world.hpp"
 
 namespace harness {
-
-/// An estimator in a run.
-struct LiveEstimator {
-  std::string name;
-  std::unique_ptr<seif::Estimator> filter;
-  double odometry_sd_factor = 1.0;     // [-] odometry noise that it assumes, relative to the data's
-  double observation_sd_factor = 1.0;  // [-] the same for observations
-  std::string failure;                 // why it was removed from the run; empty: it still runs
-};
 
 /// The world's id of a landmark in an estimator's map. If the estimator is told the ids, it is `landmark`
 /// itself.
@@ -73,8 +67,19 @@ class LiveLoop {
   /// throws; call finish() in that case too.
   void run(const std::atomic<bool>& stop, const std::function<void(const LoopCounts&)>& progress);
 
+  /// Processes one event, which may lose what is invalid. False if nothing of it was left.
+  bool take(Event& event);
+
   /// Scores the consistency at the end and reports the maps.
   void finish();
+
+  /// Changes an option of an estimator before the first event that is later than `change.at`.
+  void change(const OptionChange& change) { changes_.add(change); }
+
+  /// From now on calls `watch` with the index of an estimator and a stage of its update: before the measurement
+  /// update with Stage::motion, and then whenever a stage has ended. What the call takes is no part of the
+  /// times that are recorded. It may read the estimators, and may not change them.
+  void watch_stages(std::function<void(std::size_t, seif::Stage)> watch) { watch_ = std::move(watch); }
 
   /// Scores the consistency now. For callers that do not want finish().
   void score_consistency();
@@ -86,6 +91,14 @@ class LiveLoop {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// The measurement update in progress.
+  struct Running {
+    std::size_t estimator = 0;
+    Clock::time_point stage_begin;
+    Clock::duration watched{};  // spent in watch_
+  };
+
+  void end_stage(seif::Stage done);
   void take(const OdometryEvent& event);
   void take(const ScanEvent& event);
   void note_truth(const std::optional<TruePose>& truth);
@@ -113,10 +126,10 @@ class LiveLoop {
   std::vector<TrueNames> true_names_;          // for each estimator that names landmarks by itself
   seif::Scan scaled_scan_;                     // reused from scan to scan
 
-  // State of the measurement update in progress.
+  OptionChanges changes_;
   seif::StageDone stage_done_;
-  UpdateTimes* running_ = nullptr;
-  Clock::time_point stage_begin_;
+  std::function<void(std::size_t, seif::Stage)> watch_;  // empty: nobody watches
+  Running running_;
 };
 
 }  // namespace harness

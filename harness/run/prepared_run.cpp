@@ -19,8 +19,9 @@ namespace harness {
 
 namespace {
 
-/// The file name of recorded commands in the run folder; its world.yaml refers to it.
+/// The file names of commands in the run folder; its world.yaml refers to them.
 constexpr const char* commands_file = "commands.csv";
+constexpr const char* takeover_file = "takeover.csv";
 
 template <class SomeStream>
 void set_stream(PreparedRun& run, std::unique_ptr<SomeStream> stream) {
@@ -34,6 +35,7 @@ void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Re
   run.plan.notes = std::move(able.notes);
   run.plan.seed = world.seed;
   run.plan.scoring = world.scoring;
+  run.plan.option_changes = option_changes(world);
 }
 
 }  // namespace
@@ -87,11 +89,18 @@ RunResult execute_in_passing(PreparedRun& run, RunListener* follower) {
 }
 
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {
-  if (world.drive.mode == worlds::DriveMode::commands) {
-    std::filesystem::copy_file(world.drive.commands_file, folder / commands_file);
+  std::vector<std::pair<const char*, std::string>> files;
+  if (world.drive.mode == worlds::DriveMode::commands) files.emplace_back("drive.file", commands_file);
+  if (!world.drive.takeover_file.empty()) files.emplace_back("drive.takeover_file", takeover_file);
+  if (!files.empty()) {
     std::vector<worlds::Problem> problems;
     std::optional<worlds::Node> document = worlds::parse_document(resolved, "world.yaml", problems);
-    worlds::apply_override(*document, fmt::format("drive.file={}", commands_file), problems);
+    for (const auto& [key, name] : files) {
+      const bool is_commands = name == commands_file;
+      std::filesystem::copy_file(is_commands ? world.drive.commands_file : world.drive.takeover_file,
+                                 folder / name);
+      worlds::apply_override(*document, fmt::format("{}={}", key, name), problems);
+    }
     resolved = worlds::emit(*document);
   }
   write_whole_file(folder / "world.yaml", resolved);
@@ -102,8 +111,9 @@ void write_replayed_world(const std::filesystem::path& folder, const std::filesy
   if (!std::filesystem::exists(log / "world.yaml"))
     return write_whole_file(folder / "replay.yaml", settings_of_replay(resolved));
   write_whole_file(folder / "world.yaml", resolved);
-  if (std::filesystem::exists(log / commands_file))
-    std::filesystem::copy_file(log / commands_file, folder / commands_file);
+  for (const char* file : {commands_file, takeover_file}) {
+    if (std::filesystem::exists(log / file)) std::filesystem::copy_file(log / file, folder / file);
+  }
 }
 
 }  // namespace harness

@@ -70,6 +70,7 @@ RunResult execute(Stream& stream, const LogDescription& log, Believers& believer
   std::vector<RunListener*> listeners = {&recorder};
   if (follower != nullptr) listeners.push_back(follower);
   LiveLoop loop(stream, believers, listeners, log, plan.scoring);
+  for (const OptionChange& change : plan.option_changes) loop.change(change);
   const Clock::time_point begin = Clock::now();
   run_loop(loop, log, plan, result);
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -20,6 +20,7 @@ struct RunPlan {
   std::optional<double> end_t;          // [s] end of the stream; empty: not known
   bool quiet = false;                   // show no progress
   std::vector<std::string> notes = {};  // for the summary
+  std::vector<OptionChange> option_changes = {};
 };
 
 struct RunResult {

@@ -10,10 +10,7 @@ namespace {
 using worlds::Fault;
 using worlds::FaultKind;
 
-// Simulated times are whole physics steps. A time in a file is rounded to its decimals.
-constexpr double rounding = 1e-9;  // [s]
-
-bool has_come(const Fault& fault, double t) { return t >= fault.at - rounding; }
+bool has_come(const Fault& fault, double t) { return t >= fault.at - time_rounding; }
 
 double bad_range(worlds::BadValue value) {
   constexpr double absurd = 1e6;  // [m]
@@ -34,6 +31,26 @@ FaultInjection::FaultInjection(const std::vector<Fault>& faults) {
   for (const Fault& fault : faults) faults_.push_back({fault});
 }
 
+void FaultInjection::end_silence(worlds::FaultySensor sensor, double t) {
+  for (auto& [fault, is_done] : faults_) {
+    if (fault.kind == FaultKind::silence && fault.sensor == sensor && fault.duration == worlds::open_end)
+      fault.duration = t - fault.at;
+  }
+}
+
+const Fault* FaultInjection::thing(double t) {
+  Pending* first = nullptr;
+  for (Pending& pending : faults_) {
+    const FaultKind kind = pending.fault.kind;
+    const bool appears = kind == FaultKind::ice || kind == FaultKind::wall || kind == FaultKind::landmark;
+    if (!appears || pending.is_done || !has_come(pending.fault, t)) continue;
+    if (first == nullptr || pending.fault.at < first->fault.at) first = &pending;
+  }
+  if (first == nullptr) return nullptr;
+  first->is_done = true;
+  return &first->fault;
+}
+
 std::optional<worlds::Placement> FaultInjection::kidnapping(double t) {
   std::optional<worlds::Placement> last;
   for (auto& [fault, is_done] : faults_) {
@@ -47,7 +64,7 @@ std::optional<worlds::Placement> FaultInjection::kidnapping(double t) {
 bool FaultInjection::is_silent(worlds::FaultySensor sensor, double t) const {
   for (const auto& [fault, is_done] : faults_) {
     if (fault.kind == FaultKind::silence && fault.sensor == sensor && has_come(fault, t) &&
-        t < fault.at + fault.duration - rounding)
+        t < fault.at + fault.duration - time_rounding)
       return true;
   }
   return false;

@@ -11,6 +11,9 @@
 
 namespace harness {
 
+/// Simulated times are whole physics steps. A time in a file is rounded to its decimals. [s]
+inline constexpr double time_rounding = 1e-9;
+
 /// The error of the encoders on top of the true angles.
 struct WheelJumps {
   double left = 0.0;   // [rad]
@@ -21,6 +24,16 @@ struct WheelJumps {
 class FaultInjection {
  public:
   explicit FaultInjection(const std::vector<worlds::Fault>& faults);
+
+  /// Another fault, from now on.
+  void add(const worlds::Fault& fault) { faults_.push_back({fault}); }
+
+  /// A sensor that is silent without an end speaks again from `t` on.
+  void end_silence(worlds::FaultySensor sensor, double t);
+
+  /// The next thing that appears in the world at `t`: ice, a wall or a landmark, the earliest first. Each is returned
+  /// once. Null: no further one.
+  const worlds::Fault* thing(double t);
 
   /// The new true pose T_world_robot if the robot is moved away at `t`. Each kidnapping is returned once.
   std::optional<worlds::Placement> kidnapping(double t);

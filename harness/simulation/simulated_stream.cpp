@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
 #include "sensors/random_stream.hpp"
+#include "worlds/geometry.hpp"
 
 namespace harness {
 
@@ -71,6 +74,18 @@ std::int64_t checked_rate(const char* what, int rate, int step_rate) {
       fmt::format("the {} rate of {} Hz is not from 1 Hz to the physics' {} Hz", what, rate, step_rate));
 }
 
+constexpr double spare_room = 0.05;  // [m] farther than the robot gets in a physics step
+
+/// How far the thing that appears is from a point. [m]
+double distance_to(const worlds::Fault& fault, const Eigen::Vector2d& p) {
+  if (fault.kind == worlds::FaultKind::landmark)
+    return (fault.landmark.position - p).norm() - fault.landmark.radius;
+  double least = std::numeric_limits<double>::infinity();
+  for (const worlds::Segment& leg : worlds::legs(fault.wall.points, fault.wall.closed))
+    least = std::min(least, worlds::distance(p, worlds::rectangle(leg, fault.wall.thickness)));
+  return least;
+}
+
 /// A log stores one triangle of a covariance. Live estimators must get the same matrix as in a replay.
 template <class Matrix>
 void make_symmetric(Matrix& covariance) {
@@ -131,6 +146,15 @@ LogDescription SimulatedStream::describe() const {
     const auto id = static_cast<seif::LandmarkId>(log.landmarks->size());
     log.landmarks->push_back({id, landmark.position, landmark.radius});
   }
+  std::vector<worlds::Fault> later;
+  for (const worlds::Fault& fault : world_.faults) {
+    if (fault.kind == worlds::FaultKind::landmark) later.push_back(fault);
+  }
+  std::ranges::stable_sort(later, {}, &worlds::Fault::at);
+  for (const worlds::Fault& fault : later) {
+    const auto id = static_cast<seif::LandmarkId>(log.landmarks->size());
+    log.landmarks->push_back({id, fault.landmark.position, fault.landmark.radius});
+  }
   return log;
 }
 
@@ -164,27 +188,94 @@ void SimulatedStream::move_by(const sim::Command& command) {
 }
 
 bool SimulatedStream::next(Event& event) {
-  while (true) {
-    // Both may be due at the same step. Odometry comes first.
-    if (odometry_clock_.next_step() <= step_) {
-      must_steer_ = true;
-      ++odometry_clock_.ticks;
-      if (faults_.is_silent(worlds::FaultySensor::encoders, t())) continue;
-      read_encoders(memory_.odometry(event));
-      return true;
-    }
-    if (scan_clock_.next_step() <= step_) {
-      ++scan_clock_.ticks;
-      if (faults_.is_silent(worlds::FaultySensor::landmark_sensor, t())) continue;
-      scan(memory_.scan(event));
-      return true;
-    }
-    if (step_ >= last_step_) return false;
-    if (const auto place = faults_.kidnapping(t())) simulator_->place(*place);
-    steer();
-    simulator_->step(command_);
-    ++step_;
+  Advance done = Advance::step;
+  while (done == Advance::step) done = advance(event);
+  return done == Advance::event;
+}
+
+SimulatedStream::Advance SimulatedStream::advance(Event& event) {
+  // Both may be due at the same step. Odometry comes first.
+  if (odometry_clock_.next_step() <= step_) {
+    must_steer_ = true;
+    ++odometry_clock_.ticks;
+    if (faults_.is_silent(worlds::FaultySensor::encoders, t())) return advance(event);
+    read_encoders(memory_.odometry(event));
+    return Advance::event;
   }
+  if (scan_clock_.next_step() <= step_) {
+    ++scan_clock_.ticks;
+    if (faults_.is_silent(worlds::FaultySensor::landmark_sensor, t())) return advance(event);
+    scan(memory_.scan(event));
+    return Advance::event;
+  }
+  if (step_ >= last_step_) return Advance::end;
+  intervene();
+  steer();
+  simulator_->step(command_);
+  ++step_;
+  return Advance::step;
+}
+
+/// What happens to the world at this step, and who steers from it on.
+void SimulatedStream::intervene() {
+  while (const worlds::Fault* fault = faults_.thing(t())) let_appear(*fault);
+  if (const auto place = faults_.kidnapping(t())) simulator_->place(*place);
+  const std::vector<worlds::Takeover>& rows = world_.drive.takeover;
+  for (; next_takeover_ < rows.size() && rows[next_takeover_].t <= t() + time_rounding; ++next_takeover_) {
+    const worlds::Takeover& row = rows[next_takeover_];
+    given_command_.reset();
+    if (!row.released) given_command_ = sim::Command{row.v, row.omega};
+    must_steer_ = true;
+  }
+}
+
+void SimulatedStream::let_appear(const worlds::Fault& fault) {
+  try {
+    if (fault.kind == worlds::FaultKind::ice) return simulator_->add_patch(fault.patch);
+    if (fault.kind == worlds::FaultKind::wall) return simulator_->add_wall(fault.wall);
+    simulator_->add_landmark(fault.landmark);
+    world_.landmarks.push_back(fault.landmark);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("at {} s: the {} of the world's faults cannot appear: {}", t(),
+                                         fault.kind == worlds::FaultKind::wall ? "wall" : "landmark",
+                                         error.what()));
+  }
+}
+
+void SimulatedStream::check_time(double t) const {
+  if (t < next_step_t() - time_rounding)
+    throw std::invalid_argument(
+        fmt::format("an intervention at {} s comes too late: the earliest is {} s", t, next_step_t()));
+}
+
+void SimulatedStream::inject(const worlds::Fault& fault) {
+  check_time(fault.at);
+  if (fault.kind == worlds::FaultKind::landmark || fault.kind == worlds::FaultKind::wall) {
+    const sim::RobotState robot = simulator_->robot();
+    const double distance = distance_to(fault, robot.position);
+    if (distance < worlds::footprint_radius(world_.robot) + spare_room)
+      throw std::invalid_argument("there is no room: the robot stands there");
+  }
+  faults_.add(fault);
+  if (fault.kind != worlds::FaultKind::landmark) return;
+  const auto id = static_cast<seif::LandmarkId>(description_.landmarks->size());
+  description_.landmarks->push_back({id, fault.landmark.position, fault.landmark.radius});
+}
+
+void SimulatedStream::end_silence(worlds::FaultySensor sensor, double t) {
+  check_time(t);
+  faults_.end_silence(sensor, t);
+}
+
+void SimulatedStream::take_over(const worlds::Takeover& row) {
+  check_time(row.t);
+  std::vector<worlds::Takeover>& rows = world_.drive.takeover;
+  if (rows.size() > next_takeover_ && rows.back().t == row.t) rows.pop_back();
+  rows.push_back(row);
+}
+
+void SimulatedStream::extend(double duration) {
+  last_step_ += std::llround(duration * world_.physics.step_rate);
 }
 
 void SimulatedStream::read_encoders(OdometryEvent& event) {

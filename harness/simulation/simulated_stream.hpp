@@ -1,6 +1,7 @@
 // A simulated world as a stream. It advances physics, drive and sensors from one measurement to the next.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,6 +44,26 @@ class SimulatedStream final : public Stream {
   /// The robot is steered at each odometry reading, by the pose that is believed after that reading.
   bool next(Event& event) override;
 
+  enum class Advance { event, step, end };
+  /// Gives the next event if one is due; otherwise moves the world by one physics step, or says that the run is over.
+  Advance advance(Event& event);
+
+  double step_s() const { return 1.0 / world_.physics.step_rate; }  // of the physics
+  /// The earliest time of an intervention: the end of the next physics step. [s]
+  double next_step_t() const { return static_cast<double>(step_ + 1) / world_.physics.step_rate; }
+
+  // Interventions. Each takes effect at the physics step that begins at its time, and gives the bits that a world
+  // file with it gives. All throw std::invalid_argument if their time is before next_step_t().
+
+  /// A fault of any kind but `option`. Throws std::invalid_argument if it cannot happen here.
+  void inject(const worlds::Fault& fault);
+  /// A sensor that is silent without an end speaks again.
+  void end_silence(worlds::FaultySensor sensor, double t);
+  /// Somebody takes the wheel or gives it back. A row of the same time as the one before takes its place.
+  void take_over(const worlds::Takeover& row);
+  /// The run ends so much later. [s]
+  void extend(double duration);
+
   /// From now on this command moves the robot, and not the drive.
   void move_by(const sim::Command& command);
 
@@ -62,6 +83,9 @@ class SimulatedStream final : public Stream {
   };
 
   double t() const;  // [s]
+  void check_time(double t) const;
+  void let_appear(const worlds::Fault& fault);
+  void intervene();
   TruePose truth() const;
   void steer();
   void read_encoders(OdometryEvent& event);
@@ -86,6 +110,7 @@ class SimulatedStream final : public Stream {
   bool must_steer_ = true;
   sim::Command command_;
   std::optional<sim::Command> given_command_;       // instead of the drive's
+  std::size_t next_takeover_ = 0;                   // row of the world's
   std::vector<int> in_range_;                       // reused from scan to scan
   std::vector<sensors::LandmarkTruth> candidates_;  // reused from scan to scan
   ScanMemory memory_;

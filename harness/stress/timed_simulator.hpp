@@ -17,6 +17,9 @@ class TimedSimulator final : public sim::Simulator {
   void step(const sim::Command& command) override;
 
   void place(const worlds::Placement& T_world_robot) override { simulator_->place(T_world_robot); }
+  int add_landmark(const worlds::Landmark& landmark) override { return simulator_->add_landmark(landmark); }
+  void add_wall(const worlds::Wall& wall) override { simulator_->add_wall(wall); }
+  void add_patch(const worlds::FrictionPatch& patch) override { simulator_->add_patch(patch); }
   sim::RobotState robot() const override { return simulator_->robot(); }
   void landmarks_within(const Eigen::Vector2d& p_world, double radius, std::vector<int>& out) const override {
     simulator_->landmarks_within(p_world, radius, out);

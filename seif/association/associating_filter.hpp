@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,10 @@ class AssociatingFilter final : public Estimator {
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override {
     return filter_->joint_covariances(groups);
+  }
+  /// Those of the filter.
+  bool change_option(std::string_view option, double value) override {
+    return filter_->change_option(option, value);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
@@ -234,6 +235,12 @@ void Ekf::reserve(int landmarks) {
   mu_.conservativeResize(rows);
   Sigma_.conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
   columns_.resize(rows, 5);
+}
+
+bool Ekf::change_option(std::string_view option, double value) {
+  if (option != "gate" && option != "robust_above") return false;
+  (option == "gate" ? options_.gate : options_.robust_above) = value;
+  return true;
 }
 
 Counts Ekf::counts() const {

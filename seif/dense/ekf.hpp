@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,9 @@ class Ekf final : public Estimator, public LocalBelief {
       std::span<const LandmarkId> landmarks) const override;
   std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
       std::span<const LandmarkIds> groups) const override;
+
+  /// gate and robust_above.
+  bool change_option(std::string_view option, double value) override;
 
   LocalBelief* local_belief() override { return this; }
   void begin_association(double /*t*/) override {}

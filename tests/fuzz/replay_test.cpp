@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 class Corpus : public testing::TestWithParam<std::string_view> {};
-INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::Values("worlds", "overrides", "logs", "runs"),
+INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::Values("worlds", "overrides", "logs", "runs", "requests"),
                          [](const auto& corpus) { return std::string(corpus.param); });
 
 /// A target that finds an error ends the program.

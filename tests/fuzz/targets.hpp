@@ -23,6 +23,9 @@ void read_log(std::string_view bytes);
 /// that was cut off.
 void read_run(std::string_view bytes);
 
+/// Reads a message from a page of a live run.
+void read_request(std::string_view bytes);
+
 /// The targets by the names of their corpora.
 const std::map<std::string_view, Target>& targets();
 

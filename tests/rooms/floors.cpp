@@ -12,8 +12,8 @@ constexpr std::string_view harness = "harness/";
 constexpr std::ptrdiff_t most_files_at_the_top = 5;
 
 /// From the lowest floor up. CONTRIBUTING.md has the same picture.
-constexpr std::array<std::array<std::string_view, 4>, 9> floors = {{
-    {"files", "peers", "statistics", "terminal"},
+constexpr std::array<std::array<std::string_view, 5>, 10> floors = {{
+    {"files", "peers", "statistics", "terminal", "web"},
     {"figures", "stream"},
     {"readers", "recording", "simulation"},
     {"estimators", "score"},
@@ -21,6 +21,7 @@ constexpr std::array<std::array<std::string_view, 4>, 9> floors = {{
     {"comparison", "film", "stress"},
     {"doctor", "paper", "sweep"},
     {"report"},
+    {"live"},
     {"commands"},
 }};
 
