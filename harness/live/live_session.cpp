@@ -108,11 +108,11 @@ void LiveSession::arrive() {
   if (is_there) set_goal(Goal::none);
 }
 
-void LiveSession::set_goal(Goal goal) {
+void LiveSession::set_goal(Goal goal, std::int64_t count) {
   LiveRun& run = held_->run();
   goal_ = goal;
-  if (goal == Goal::step) goal_count_ = run.steps() + 1;
-  if (goal == Goal::update) goal_count_ = run.updates() + 1;
+  if (goal == Goal::step) goal_count_ = run.steps() + count;
+  if (goal == Goal::update) goal_count_ = run.updates() + count;
   if (goal == Goal::go) pacer_.restart(run.t(), Clock::now());
   state_ = goal == Goal::none ? LiveState::paused : LiveState::running;
   if (goal != Goal::stage) {
@@ -200,8 +200,8 @@ bool LiveSession::control(const Request& request) {
   bool is_known = true;
   std::visit(Overloaded{[&](const asks::Pause&) { set_goal(Goal::none); },
                         [&](const asks::Go&) { go(); },
-                        [&](const asks::Step&) { set_goal(Goal::step); },
-                        [&](const asks::Update&) { set_goal(Goal::update); },
+                        [&](const asks::Step& wanted) { set_goal(Goal::step, wanted.count); },
+                        [&](const asks::Update& wanted) { set_goal(Goal::update, wanted.count); },
                         [&](const asks::Stage&) { set_goal(Goal::stage); },
                         [&](const asks::Speed& wanted) {
                           pacer_.set_speed(wanted.factor, held_->run().t(), Clock::now());

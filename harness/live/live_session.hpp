@@ -53,7 +53,7 @@ class LiveSession {
   void save(const Request& request, const std::string& what);
   void inspect(const Request& request, const asks::Inspect& wanted);
   void go();
-  void set_goal(Goal goal);
+  void set_goal(Goal goal, std::int64_t count = 1);
   void move();
   void advance();
   void arrive();

@@ -79,6 +79,14 @@ class RequestFields {
   const RequestJson& json_;
 };
 
+/// How many times; once if it does not say.
+std::int64_t count_of(const RequestFields& fields) {
+  if (!fields.has("count")) return 1;
+  const std::int64_t count = fields.whole("count");
+  if (count < 1) RequestFields::refuse("count", "at least 1");
+  return count;
+}
+
 Ask speed_of(const RequestFields& fields) {
   if (fields.at("value") == "max") return asks::Speed{std::numeric_limits<double>::infinity()};
   const double factor = fields.number("value");
@@ -138,8 +146,8 @@ const std::map<std::string, Reader, std::less<>>& readers() {
   static const std::map<std::string, Reader, std::less<>> all = {
       {"pause", always<asks::Pause>()},
       {"go", always<asks::Go>()},
-      {"step", always<asks::Step>()},
-      {"update", always<asks::Update>()},
+      {"step", [](Fields f) { return Ask(asks::Step{count_of(f)}); }},
+      {"update", [](Fields f) { return Ask(asks::Update{count_of(f)}); }},
       {"stage", always<asks::Stage>()},
       {"again", always<asks::Again>()},
       {"release", always<asks::Release>()},

@@ -24,8 +24,12 @@ namespace harness {
 namespace asks {
 struct Pause {};
 struct Go {};
-struct Step {};    // of the physics
-struct Update {};  // to the end of the next update
+struct Step {
+  std::int64_t count = 1;  // [-] steps of the physics
+};
+struct Update {
+  std::int64_t count = 1;  // [-] to the end of so many updates
+};
 struct Stage {};   // to the end of the next stage of an update
 struct Again {};   // from the beginning
 struct Release {};  // gives the wheel back to the drive

@@ -32,7 +32,7 @@ class LiveTestSession {
   ReceivedMessage wait_for_state(const std::string& state);
   /// The error that answers this request.
   std::string refusal(nlohmann::json request);
-  /// Asks for updates, one after the other, and returns the frame after the last.
+  /// Goes on for so many updates, and returns the frame after the last.
   ReceivedMessage update(int count);
 
   struct Saved {
