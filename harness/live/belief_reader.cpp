@@ -14,13 +14,17 @@ using std::chrono::milliseconds;
 
 // What one reading may cost.
 constexpr std::size_t most_seen = 512;          // [-] landmarks of the latest scans
-constexpr std::size_t others_in_turn = 384;     // [-] other landmarks
+constexpr std::size_t many_others = 512;        // [-] other landmarks, while the run waits ...
+constexpr std::size_t few_others = 96;          // [-] ... and while it does not
 constexpr std::size_t most_link_rows = 600;     // [-] landmarks whose links are read
 constexpr std::size_t most_drawn_links = 2000;  // [-] the strongest
 constexpr std::size_t most_ellipses_read = 500;  // [-] of those in view
 constexpr std::size_t most_factorised = 3000;    // [-] a larger map is not factorised while it runs
 constexpr std::size_t most_pictured = 10'000;    // [-] landmarks of a matrix that is drawn
-constexpr double share_of_time = 0.005;          // [-] for each kind of reading that takes more than one row
+constexpr double share_for_links = 0.002;        // [-] of the time of a busy run
+constexpr double share_for_ellipses = 0.003;     // [-]
+constexpr double share_for_matrix = 0.003;       // [-]
+constexpr double idle_share = 0.1;               // [-] for each of them, while the run waits
 constexpr float told_again_above = 1e-4F;        // [m] a smaller change of a mean is not told
 
 bool differs(const LivePoint& a, const LivePoint& b) {
@@ -31,9 +35,9 @@ bool differs(const LivePoint& a, const LivePoint& b) {
 
 BeliefReader::BeliefReader(const LiveEstimator& estimator)
     : estimator_(estimator),
-      links_thrift_(share_of_time, milliseconds(200)),
-      ellipses_thrift_(2.0 * share_of_time, milliseconds(200)),
-      matrix_thrift_(share_of_time, milliseconds(400)) {}
+      links_thrift_(share_for_links, idle_share, milliseconds(200)),
+      ellipses_thrift_(share_for_ellipses, idle_share, milliseconds(200)),
+      matrix_thrift_(share_for_matrix, idle_share, milliseconds(400)) {}
 
 void BeliefReader::note(seif::LandmarkId landmark) {
   if (noted_.size() < most_seen) noted_.push_back(landmark);
@@ -56,7 +60,17 @@ void BeliefReader::update(const UpdateRecord& record) {
   is_stale_ = has_stale_ellipses_ = true;
 }
 
-void BeliefReader::read(const LiveView& view, bool is_in_update, LiveBelief& out) {
+BeliefReader::Clock::duration BeliefReader::read(const LiveView& view, Depth depth, LiveBelief& out) {
+  apart_ = {};
+  is_idle_ = depth == Depth::much;
+  try {
+    read_all(view, depth, out);
+  } catch (const std::exception&) {  // an improper belief cannot be read; the run itself reports it
+  }
+  return apart_;
+}
+
+void BeliefReader::read_all(const LiveView& view, Depth depth, LiveBelief& out) {
   out.failure = estimator_.failure;
   out.means.clear();
   out.ellipses.clear();
@@ -67,18 +81,22 @@ void BeliefReader::read(const LiveView& view, bool is_in_update, LiveBelief& out
   out.figures = figures_.figures();
   out.figures.landmarks = static_cast<std::int64_t>(means_.size());
   if (!estimator_.failure.empty()) return;
-  try {
-    out.pose = estimator_.filter->pose();
-    read_active(out);
-    if (is_in_update) return;
-    if (const auto covariance = estimator_.filter->pose_covariance()) out.covariance = covariance;
-    if (view.area.min != area_.min || view.area.max != area_.max) is_stale_ = has_stale_ellipses_ = true;
-    area_ = view.area;
-    read_means(out);
-    read_links(view, out);
-    read_ellipses(view, out);
-  } catch (const std::exception&) {  // an improper belief cannot be read; the run itself reports it
-  }
+  out.pose = estimator_.filter->pose();
+  read_active(out);
+  if (depth == Depth::pose) return;
+  if (const auto covariance = estimator_.filter->pose_covariance()) out.covariance = covariance;
+  if (view.area.min != area_.min || view.area.max != area_.max) is_stale_ = has_stale_ellipses_ = true;
+  area_ = view.area;
+  read_means(depth == Depth::much ? many_others : few_others, out);
+  read_links(view, out);
+  read_ellipses(view, out);
+}
+
+/// Counts what was spent by a thrift of its own.
+void BeliefReader::count(Thrift& thrift, Clock::time_point begin) {
+  const Clock::duration cost = Clock::now() - begin;
+  thrift.spent(begin, cost);
+  apart_ += cost;
 }
 
 void BeliefReader::read_active(LiveBelief& out) {
@@ -89,10 +107,10 @@ void BeliefReader::read_active(LiveBelief& out) {
 }
 
 /// The landmarks of the latest scans, and others in turn: what a closure has moved is found after a while.
-void BeliefReader::read_means(LiveBelief& out) {
+void BeliefReader::read_means(std::size_t others, LiveBelief& out) {
   wanted_.swap(noted_);
   noted_.clear();
-  for (std::size_t i = 0; i < std::min(others_in_turn, known_.size()); ++i)
+  for (std::size_t i = 0; i < std::min(others, known_.size()); ++i)
     wanted_.push_back(known_[turn_++ % known_.size()].landmark);
   std::ranges::sort(wanted_);
   wanted_.erase(std::ranges::unique(wanted_).begin(), wanted_.end());
@@ -118,7 +136,7 @@ void BeliefReader::find_shown(const LiveView& view, std::size_t most) {
 
 void BeliefReader::read_links(const LiveView& view, LiveBelief& out) {
   const Clock::time_point begin = Clock::now();
-  if (!view.links || !is_stale_ || !links_thrift_.may(begin)) return;
+  if (!view.links || !is_stale_ || !links_thrift_.may(begin, is_idle_)) return;
   if (estimator_.filter->belief_matrix() != seif::BeliefMatrix::information) return;
   is_stale_ = false;
   find_shown(view, most_link_rows);
@@ -134,19 +152,19 @@ void BeliefReader::read_links(const LiveView& view, LiveBelief& out) {
     std::ranges::nth_element(links, links.begin() + most_drawn_links, std::ranges::greater{}, &LiveLink::weight);
     links.resize(most_drawn_links);
   }
-  links_thrift_.spent(begin, Clock::now());
+  count(links_thrift_, begin);
 }
 
 /// A filter in covariance form has the covariances at hand. Other filters must factorise their whole matrix.
 void BeliefReader::read_ellipses(const LiveView& view, LiveBelief& out) {
   const Clock::time_point begin = Clock::now();
-  if (!has_stale_ellipses_ || !ellipses_thrift_.may(begin) || view.pages == 0) return;
+  if (!has_stale_ellipses_ || !ellipses_thrift_.may(begin, is_idle_) || view.pages == 0) return;
   const bool is_at_hand = estimator_.filter->belief_matrix() == seif::BeliefMatrix::covariance;
   if (!is_at_hand && means_.size() > most_factorised) return;
   has_stale_ellipses_ = false;
   find_shown(view, most_ellipses_read);
   const auto belief = estimator_.filter->marginal_covariances(shown_);
-  ellipses_thrift_.spent(begin, Clock::now());
+  count(ellipses_thrift_, begin);
   if (!belief) return;
   if (!out.covariance && belief->pose.allFinite()) out.covariance = belief->pose;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
@@ -159,13 +177,13 @@ void BeliefReader::read_ellipses(const LiveView& view, LiveBelief& out) {
 
 bool BeliefReader::read_matrix(LiveMatrix& out) {
   const Clock::time_point begin = Clock::now();
-  if (!estimator_.failure.empty() || !matrix_thrift_.may(begin) || means_.size() > most_pictured) return false;
+  if (!estimator_.failure.empty() || !matrix_thrift_.may(begin, is_idle_) || means_.size() > most_pictured) return false;
   try {
     picture_.read(*estimator_.filter, means_);
   } catch (const std::exception&) {
     return false;
   }
-  matrix_thrift_.spent(begin, Clock::now());
+  count(matrix_thrift_, begin);
   out.size = picture_.size();
   out.fill = picture_.fill();
   out.darkness.clear();

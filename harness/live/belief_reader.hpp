@@ -29,8 +29,12 @@ class BeliefReader {
   void update(const UpdateRecord& record);
   void consistency(const ConsistencyRecord& record) { figures_.consistency(record); }
 
-  /// Reads what has changed. In the middle of an update only the pose and the links to the robot are read.
-  void read(const LiveView& view, bool is_in_update, LiveBelief& out);
+  /// How much may be read.
+  enum class Depth { pose, little, much };
+
+  /// Reads what has changed. Depth::pose: only the pose and the links to the robot, as in the middle of an update.
+  /// Returns what was spent on readings that have a thrift of their own.
+  Clock::duration read(const LiveView& view, Depth depth, LiveBelief& out);
 
   /// Reads the picture of the whole matrix if that is affordable now. False: it was not read.
   bool read_matrix(LiveMatrix& out);
@@ -44,9 +48,11 @@ class BeliefReader {
     bool was_told = false;
   };
 
+  void read_all(const LiveView& view, Depth depth, LiveBelief& out);
+  void count(Thrift& thrift, Clock::time_point begin);
   void note(seif::LandmarkId landmark);
   void read_active(LiveBelief& out);
-  void read_means(LiveBelief& out);
+  void read_means(std::size_t others, LiveBelief& out);
   void read_links(const LiveView& view, LiveBelief& out);
   void read_ellipses(const LiveView& view, LiveBelief& out);
   void find_shown(const LiveView& view, std::size_t most);
@@ -63,6 +69,8 @@ class BeliefReader {
   bool is_stale_ = true;                                       // an update has come since links were read
   bool has_stale_ellipses_ = true;
   Thrift links_thrift_, ellipses_thrift_, matrix_thrift_;
+  bool is_idle_ = false;       // during a reading: the run waits
+  Clock::duration apart_ = {};  // of a reading
   MatrixPicture picture_;
 
   // Reused.

@@ -6,7 +6,8 @@ namespace harness {
 
 namespace {
 
-constexpr double share_for_snapshots = 0.015;  // [-] of the time of a run
+constexpr double share_for_snapshots = 0.01;  // [-] of the time of a busy run
+constexpr double idle_share_for_snapshots = 0.2;
 constexpr std::chrono::milliseconds watched_period{33};
 constexpr std::chrono::milliseconds alone_period{250};   // while no page is open
 constexpr std::size_t most_for_hidden_rays = 20'000;     // [-] landmarks of a world that is held twice for them
@@ -19,7 +20,7 @@ LiveObserver::LiveObserver(const worlds::World& world, bool knows_world, const E
       epoch_(epoch),
       stage_(world, knows_world, ends.log, {}),
       sight_(world, knows_world && world.landmarks.size() <= most_for_hidden_rays, ends.log.T_robot_sensor),
-      thrift_(share_for_snapshots, watched_period),
+      thrift_(share_for_snapshots, idle_share_for_snapshots, watched_period),
       t_(ends.log.start_t),
       truth_(ends.log.true_start) {
   for (const LiveEstimator& estimator : ends.believers.estimators) readers_.emplace_back(estimator);
@@ -53,19 +54,21 @@ void LiveObserver::consistency(std::size_t estimator, const ConsistencyRecord& r
 void LiveObserver::publish_if_due(const LiveStatus& status, const std::optional<TruePose>& truth,
                                   std::int64_t steps) {
   const Clock::time_point begin = Clock::now();
-  if (!thrift_.may(begin)) return;
+  if (!thrift_.may(begin, status.is_idle)) return;
   LiveSnapshot* snapshot = ends_.exchange.to_write();
   if (snapshot == nullptr) return;
   ends_.wish.get(view_);
   snapshot->steps = steps;
   snapshot->truth = truth ? truth : truth_;
-  fill(*snapshot, status);
+  const Clock::duration apart = fill(*snapshot, status);
   ends_.exchange.publish();
-  thrift_.spent(begin, Clock::now());
+  thrift_.spent(begin, Clock::now() - begin - apart);
   if (view_.pages == 0) thrift_.pause_until(begin + alone_period);
 }
 
-void LiveObserver::fill(LiveSnapshot& snapshot, const LiveStatus& status) {
+/// Returns what was spent on readings that have a thrift of their own.
+LiveObserver::Clock::duration LiveObserver::fill(LiveSnapshot& snapshot, const LiveStatus& status) {
+  Clock::duration apart{};
   snapshot.epoch = epoch_;
   snapshot.t = snapshot.truth ? snapshot.truth->t : t_;
   snapshot.updates = updates_;
@@ -77,11 +80,17 @@ void LiveObserver::fill(LiveSnapshot& snapshot, const LiveStatus& status) {
   snapshot.beliefs.resize(readers_.size());
   snapshot.matrix.reset();
   const bool is_in_update = status.state == LiveState::stage;
+  const BeliefReader::Depth depth = is_in_update     ? BeliefReader::Depth::pose
+                                    : status.is_idle ? BeliefReader::Depth::much
+                                                     : BeliefReader::Depth::little;
   for (std::size_t i = 0; i < readers_.size(); ++i) {
-    readers_[i].read(view_, is_in_update, snapshot.beliefs[i]);
+    apart += readers_[i].read(view_, depth, snapshot.beliefs[i]);
     if (!view_.matrix || is_in_update || readers_[i].estimator().name != status.watched) continue;
+    const Clock::time_point begin = Clock::now();
     if (LiveMatrix matrix; readers_[i].read_matrix(matrix)) snapshot.matrix = std::move(matrix);
+    apart += Clock::now() - begin;
   }
+  return apart;
 }
 
 /// From where the robot was at the scan; the page lets them begin at the robot.

@@ -53,7 +53,7 @@ class LiveObserver final : public RunListener {
   void add_landmark(const TrueLandmark& landmark) { stage_.add_landmark(landmark); }
 
  private:
-  void fill(LiveSnapshot& snapshot, const LiveStatus& status);
+  Clock::duration fill(LiveSnapshot& snapshot, const LiveStatus& status);
   void read_rays(LiveSnapshot& snapshot);
 
   Ends ends_;

@@ -18,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds frame_time{33};
+constexpr std::chrono::milliseconds enough_to_look{2};
 constexpr std::chrono::milliseconds patience{10};  // between two looks at the requests
 
 std::string first_estimator(const worlds::World& world) {
@@ -46,7 +47,7 @@ LiveSession::LiveSession(LiveSource source, LiveChannels& channels, Plan plan, c
   set_goal(plan_.is_paused ? Goal::none : Goal::go);
 }
 
-LiveStatus LiveSession::status() const {
+LiveStatus LiveSession::status(bool is_idle) const {
   return {state_,
           progress_,
           pacer_.speed(),
@@ -54,7 +55,8 @@ LiveStatus LiveSession::status() const {
           held_->is_by_hand(),
           held_->is_silent(worlds::FaultySensor::landmark_sensor),
           held_->is_silent(worlds::FaultySensor::encoders),
-          watched_};
+          watched_,
+          is_idle};
 }
 
 void LiveSession::run() {
@@ -62,7 +64,7 @@ void LiveSession::run() {
     for (const Request& request : std::exchange(deferred_, {})) answer(request);
     while (const std::optional<Request> request = channels_.requests.pop()) answer(*request);
     if (goal_ == Goal::none) {
-      publish();
+      publish(true);
       channels_.requests.wait_until(Clock::now() + frame_time);
     } else {
       move();
@@ -77,7 +79,7 @@ void LiveSession::move() {
     if (goal_ == Goal::go) {
       const Clock::time_point due = pacer_.due(held_->run().t(), now);
       if (due > now) {
-        publish();
+        publish(due - now > enough_to_look);
         return channels_.requests.wait_until(std::min(due, now + frame_time));
       }
     }
@@ -149,7 +151,7 @@ void LiveSession::watch_stage(std::size_t index, seif::Stage stage) {
 void LiveSession::hold_stage() {
   state_ = LiveState::stage;
   while (!stop_) {
-    publish();
+    publish(true);
     channels_.requests.wait_until(Clock::now() + frame_time);
     if (const std::optional<Request> request = channels_.requests.pop()) {
       if (leave_stage(*request)) return;

@@ -62,8 +62,8 @@ class LiveSession {
   bool leave_stage(const Request& request);
   const LiveEstimator* watched() const;
   void tell(const Request& request, std::string_view text, bool is_error = false);
-  LiveStatus status() const;
-  void publish() { held_->run().publish(status()); }
+  LiveStatus status(bool is_idle) const;
+  void publish(bool is_idle = false) { held_->run().publish(status(is_idle)); }
 
   LiveChannels& channels_;
   Plan plan_;

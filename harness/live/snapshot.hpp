@@ -99,6 +99,7 @@ struct LiveStatus {
   bool is_blind = false;  // the landmark sensor says nothing
   bool is_numb = false;   // the encoders say nothing
   std::string watched;    // the estimator whose stages and matrix are shown
+  bool is_idle = false;   // the run has nothing to do just now: looking at it takes nothing from it
 };
 
 struct LiveSnapshot {

@@ -4,6 +4,7 @@ const view = {
   renderer: null, scene: new THREE.Scene(), camera: null, controls: null,
   mode: "overview", isDirty: true, robot: new THREE.Vector3(), heading: 0,
 };
+const shortestRobot = 20;  // [px]
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 function startView() {
@@ -88,7 +89,28 @@ function aspectOfViews() {
   return Math.max(0.2, canvas.clientWidth / (sides().length || 1) / Math.max(1, canvas.clientHeight));
 }
 
+/** How long a metre is at a point. [px] */
+function metreAt(point) {
+  const distance = Math.max(0.1, view.camera.position.distanceTo(point));
+  return byId("stage-view").clientHeight / (2 * Math.tan(0.5 * view.camera.fov * Math.PI / 180) * distance);
+}
+
+/** From far away the robot is drawn larger than it is, so that it can be seen, and dots are smaller, so that they do not
+ * cover the map. */
+function sizeMarks() {
+  if (!world.robot) return;
+  const size = Math.max(1, shortestRobot / (0.45 * metreAt(world.robot.position)));
+  const share = Math.min(1, Math.max(0.4, metreAt(view.controls.target) / 12));
+  world.robot.scale.setScalar(size);
+  for (const belief of state.beliefs) {
+    belief.arrow.scale.setScalar(size);
+    belief.dots.material.size = 6.5 * share;
+    belief.activeDots.material.size = 11.5 * share;
+  }
+}
+
 function render() {
+  sizeMarks();
   const { clientWidth: width, clientHeight: height } = byId("stage-view");
   const parts = sides();
   view.camera.aspect = aspectOfViews();

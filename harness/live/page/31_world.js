@@ -5,9 +5,11 @@ view.scene.add(world.group);
 
 const unitBox = new THREE.BoxBufferGeometry(1, 1, 1);
 const unitCylinder = new THREE.CylinderBufferGeometry(0.5, 0.5, 1, 20).rotateX(0.5 * Math.PI);
-const unitPost = new THREE.CylinderBufferGeometry(1, 1, 1, 8, 1).rotateX(0.5 * Math.PI).translate(0, 0, 0.5);
+const post = (sides) => new THREE.CylinderBufferGeometry(1, 1, 1, sides).rotateX(0.5 * Math.PI).translate(0, 0, 0.5);
+const roundPost = post(12), roughPost = post(5);
+const mostRoundPosts = 300;
 const postHeight = 0.7;        // [m]
-const mostNearPosts = 3000;    // drawn as cylinders; farther ones are points
+const mostNearPosts = 1500;    // drawn as cylinders; farther ones are points
 
 function solidMaterial(colour) { return new THREE.MeshLambertMaterial({ color: colour }); }
 
@@ -109,7 +111,7 @@ function drawPosts() {
   const colour = state.hello.colours.post;
   posts.far = new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size: 2, sizeAttenuation: false }));
   posts.far.visible = posts.count > mostNearPosts;
-  posts.near = new THREE.InstancedMesh(unitPost, solidMaterial(colour), Math.min(posts.count, mostNearPosts));
+  posts.near = new THREE.InstancedMesh(posts.count > mostRoundPosts ? roughPost : roundPost, solidMaterial(colour), Math.min(posts.count, mostNearPosts));
   posts.near.frustumCulled = posts.far.frustumCulled = false;
   posts.middle = null;
   world.group.add(posts.far, posts.near);

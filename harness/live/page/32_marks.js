@@ -2,11 +2,23 @@
 
 const above = 0.03;  // [m] marks lie above the ground
 
+/** A round mark, as a picture for points. */
+function roundMark() {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 32;
+  const paint = canvas.getContext("2d");
+  paint.fillStyle = "#fff";
+  paint.arc(16, 16, 15, 0, 2 * Math.PI);
+  paint.fill();
+  return new THREE.CanvasTexture(canvas);
+}
+const roundTexture = roundMark();
+
 /** Points of one colour, which keep their size on the screen. */
 class Dots {
   constructor(colour, size) {
     this.capacity = 256;
-    this.material = new THREE.PointsMaterial({ color: colour, size, sizeAttenuation: false, depthTest: false, transparent: true });
+    this.material = new THREE.PointsMaterial({ color: colour, size, map: roundTexture, alphaTest: 0.5, sizeAttenuation: false, depthTest: false, transparent: true });
     this.object = new THREE.Points(new THREE.BufferGeometry(), this.material);
     this.object.frustumCulled = false;
     this.object.renderOrder = 3;

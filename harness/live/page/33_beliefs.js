@@ -5,13 +5,14 @@ view.scene.add(common.group);
 
 const rayColours = {};
 const secondsBetweenSlowMarks = 0.2;
+const smallestEllipse = 3;  // [px] its half axis
 
 function makeBelief(estimator) {
   const colour = new THREE.Color(estimator.colour);
   const colours = state.hello.colours;
   const belief = {
     group: new THREE.Group(), colour, ids: [], numbers: new Map(), covs: new Map(), active: [], links: [], weights: [],
-    dots: new Dots(colour, 5), activeDots: new Dots(new THREE.Color(colours.orange), 9), trail: new Trail(colour, 3),
+    dots: new Dots(colour, 6), activeDots: new Dots(new THREE.Color(colours.orange), 11), trail: new Trail(colour, 3),
     ellipses: new Ellipses(colour), lines: new Lines(4000, 0.5, 2), activeLines: new Lines(1200, 0.9, 2),
     errors: new Lines(1200, 0.9, 2), arrow: makeArrow(colour), history: [], isStale: true, pose: null,
   };
@@ -104,7 +105,7 @@ function meanOf(belief, id) {
 const orange = new THREE.Color(0xe69f00), purple = new THREE.Color(0xcc79a7);
 const newLink = new THREE.Color(0x009e73), goneLink = new THREE.Color(0xd55e00);
 
-/** Links to the robot: few, and new with each frame. In a stage, what is new and what is gone has a colour. */
+/** Links to the robot: few, and new with each frame. In a stage, what is new and what is gone has a colour of its own. */
 function drawActive(belief, i) {
   belief.activeDots.clear();
   belief.activeLines.clear();
@@ -123,14 +124,14 @@ function drawActive(belief, i) {
 function drawStageLinks(belief, stage) {
   const rows = stage.ids.length + 1;
   const place = (row) => row === 0 ? belief.pose : meanOf(belief, stage.ids[row - 1]) || truePlace(stage.ids[row - 1]);
-  const faint = new THREE.Color(state.hello.colours.link);
   for (let a = 0; a < rows; ++a) {
     for (let b = 0; b < a; ++b) {
       const was = stage.arrays.before[a * rows + b], is = stage.arrays.after[a * rows + b];
-      if (was === 0 && is === 0) continue;
+      const stays = was > 0 && is > 0;
+      if ((was === 0 && is === 0) || (stays && b > 0)) continue;
       const from = place(a), to = place(b);
       if (!from || !to) continue;
-      const colour = was === 0 ? newLink : is === 0 ? goneLink : b === 0 ? orange : faint;
+      const colour = stays ? orange : was === 0 ? newLink : goneLink;
       belief.activeLines.add(from[0], from[1], to[0], to[1], colour);
     }
   }
@@ -143,12 +144,11 @@ function drawSlowMarks(belief, i) {
   belief.lines.clear();
   const middle = view.controls.target;
   const reach = 1.4 * view.camera.position.distanceTo(middle);
-  let drawn = 0;
+  const least = (smallestEllipse / metreAt(middle)) ** 2;  // [m^2] what is smaller hides behind its dot
   for (const [id, cov] of belief.covs) {
     const mean = meanOf(belief, id);
-    if (!mean || Math.hypot(mean[0] - middle.x, mean[1] - middle.y) > reach || drawn > mostEllipses) continue;
+    if (!mean || 4 * (cov[0] + cov[2]) < least || Math.hypot(mean[0] - middle.x, mean[1] - middle.y) > reach) continue;
     belief.ellipses.add(mean[0], mean[1], cov[0], cov[1], cov[2]);
-    ++drawn;
   }
   if (belief.covariance) belief.ellipses.add(belief.pose[0], belief.pose[1], belief.covariance[0], belief.covariance[1], belief.covariance[4]);
   const step = Math.max(1, Math.ceil(belief.ids.length / 4000));
@@ -156,7 +156,7 @@ function drawSlowMarks(belief, i) {
     const x = belief.dots.values[3 * k], y = belief.dots.values[3 * k + 1];
     if (Math.hypot(x - middle.x, y - middle.y) > reach) continue;
     const truth = truePlace(belief.ids[k]);
-    if (truth) belief.errors.add(x, y, truth[0], truth[1], purple);
+    if (truth && (x - truth[0]) ** 2 + (y - truth[1]) ** 2 > least) belief.errors.add(x, y, truth[0], truth[1], purple);
   }
   const truth = state.frame.truth;
   if (truth) belief.errors.add(belief.pose[0], belief.pose[1], truth[0], truth[1], purple);

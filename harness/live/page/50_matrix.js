@@ -31,7 +31,7 @@ byId("matrix-frame").addEventListener("wheel", (event) => {
 // The stage.
 
 const stageNames = { motion: "Motion", measurement: "Measurement", sparsification: "Sparsification", mean_recovery: "Mean recovery" };
-const cellSize = 16;  // [px] of the canvas
+const cellSize = 24;  // [px] of the canvas
 
 function change(was, is) {
   if (was === 0 && is > 0) return "new";
@@ -44,22 +44,37 @@ function shade(strength) {
   return `rgb(${[0.94, 0.9, 0.84].map((full) => Math.round(255 * (1 - dark * full))).join(",")})`;
 }
 
+/** The names of the rows, above and at the left: r is the robot. */
+function drawNames(paint, stage) {
+  paint.fillStyle = "#444c55";
+  paint.font = `${0.6 * cellSize}px sans-serif`;
+  paint.textAlign = "center";
+  paint.textBaseline = "middle";
+  for (let row = 0; row <= stage.ids.length; ++row) {
+    const name = row === 0 ? "r" : String(stage.ids[row - 1]);
+    paint.fillText(name, 0.5 * cellSize, (row + 1.5) * cellSize, cellSize);
+    paint.fillText(name, (row + 1.5) * cellSize, 0.5 * cellSize, cellSize);
+  }
+}
+
 function drawHalf(canvas, values, stage, isAfter) {
   const rows = stage.ids.length + 1;
-  canvas.width = canvas.height = rows * cellSize;
+  canvas.width = canvas.height = (rows + 1) * cellSize;
   const paint = canvas.getContext("2d");
+  drawNames(paint, stage);
   for (let i = 0; i < rows; ++i) {
     for (let j = 0; j < rows; ++j) {
       const k = i * rows + j;
+      const x = (j + 1) * cellSize, y = (i + 1) * cellSize;
       const what = i === j ? "" : change(stage.arrays.before[k], stage.arrays.after[k]);
       paint.fillStyle = shade(values[k]);
       if (what === "new" && isAfter) paint.fillStyle = "#5fd0a5";
       if (what === "gone") paint.fillStyle = isAfter ? "#ffe3d4" : "#ff9e6b";
-      paint.fillRect(j * cellSize, i * cellSize, cellSize - 1, cellSize - 1);
+      paint.fillRect(x, y, cellSize - 1, cellSize - 1);
       if (what !== "changed" || !isAfter) continue;
       paint.strokeStyle = "#0072b2";
       paint.lineWidth = 2;
-      paint.strokeRect(j * cellSize + 1, i * cellSize + 1, cellSize - 3, cellSize - 3);
+      paint.strokeRect(x + 1, y + 1, cellSize - 3, cellSize - 3);
     }
   }
 }
@@ -97,8 +112,9 @@ function showCell(event) {
   if (!stage) return;
   const box = event.target.getBoundingClientRect();
   const rows = stage.ids.length + 1;
-  const j = Math.min(rows - 1, Math.max(0, Math.floor((event.clientX - box.left) / box.width * rows)));
-  const i = Math.min(rows - 1, Math.max(0, Math.floor((event.clientY - box.top) / box.height * rows)));
+  const cell = (share) => Math.min(rows - 1, Math.max(0, Math.floor(share * (rows + 1)) - 1));
+  const j = cell((event.clientX - box.left) / box.width);
+  const i = cell((event.clientY - box.top) / box.height);
   const k = i * rows + j;
   let text = `${nameOfRow(stage, i)} – ${nameOfRow(stage, j)}: ${short(stage.arrays.before[k])} → ${short(stage.arrays.after[k])}`;
   if (stage.whole) text += `; block ${blockOf(stage.arrays.values_before, stage, i, j)} → ${blockOf(stage.arrays.values_after, stage, i, j)}`;

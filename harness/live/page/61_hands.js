@@ -144,6 +144,8 @@ for (const [id, what] of [["change", "option"], ["beside", "beside"]])
 on("hello", (hello) => {
   setMode(null);
   byId("whose").replaceChildren(...hello.estimators.map(({ name }) => element("option", name, { value: name })));
+  const ours = hello.estimators.find(({ type }) => type === "seif");
+  if (ours) byId("whose").value = ours.name;
   if (hello.estimators.length > 0) fillOptions();
   const { can } = hello;
   byId("why-not").textContent = hello.why_not;

@@ -75,9 +75,13 @@ pid_t start(const std::vector<std::string>& words, const std::filesystem::path& 
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // its own processes end with it
   pid_t process = -1;
-  const int error = posix_spawnp(&process, arguments.front(), &actions, nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::runtime_error("cannot start " + words.front());
   return process;
 }
@@ -101,7 +105,7 @@ std::string decoded_base64(const std::string& text) {
 struct BrowserPage::Core {
   ~Core() {
     if (process <= 0) return;
-    kill(process, SIGKILL);
+    kill(-process, SIGKILL);
     waitpid(process, nullptr, 0);
   }
 
@@ -159,7 +163,14 @@ json BrowserPage::evaluate(const std::string& expression) {
 }
 
 void BrowserPage::wait_until(const std::string& expression) {
-  eventually([&] { return evaluate("!!(" + expression + ")") == true; }, expression);
+  const auto is_true = [&] {
+    try {
+      return evaluate("!!(" + expression + ")") == true;
+    } catch (const std::runtime_error&) {  // the page has not been loaded yet
+      return false;
+    }
+  };
+  eventually(is_true, expression);
 }
 
 void BrowserPage::press(const std::string& key) {

@@ -70,13 +70,15 @@ TEST(RunningFigures, KeepBoundedManyPointsThatNobodyTakes) {
 }
 
 TEST(Thrift, LeavesTheRestOfTheTimeToTheRun) {
-  Thrift thrift(0.02, milliseconds(33));
+  Thrift thrift(0.02, 0.5, milliseconds(33));
   Thrift::Clock::time_point now{};
   Thrift::Clock::duration spent{};
   const Thrift::Clock::duration cost = milliseconds(3);
   for (now += seconds(1); now.time_since_epoch() < seconds(101); now += milliseconds(1)) {
-    if (!thrift.may(now)) continue;
-    thrift.spent(now, now + cost);
+    if (!thrift.may(now, false)) continue;
+    thrift.spent(now, cost);
+    EXPECT_FALSE(thrift.may(now + milliseconds(32), true));
+    EXPECT_TRUE(thrift.may(now + milliseconds(33), true));
     spent += cost;
   }
   EXPECT_LE(spent, seconds(2) + cost);
