@@ -72,6 +72,10 @@ int KinematicSimulator::add_landmark(const worlds::Landmark& landmark) {
   if (!(landmark.radius > 0.0)) {
     throw std::invalid_argument("simulator: a landmark's radius must be positive");
   }
+  const double distance_to_robot = (landmark.position - state_.position).norm() - landmark.radius;
+  if (!(distance_to_robot > worlds::footprint_radius(robot_))) {
+    throw std::invalid_argument("there is no room: the robot stands there");
+  }
   landmarks_.add(landmark.position);
   radii_.push_back(landmark.radius);
   largest_radius_ = std::max(largest_radius_, landmark.radius);

@@ -85,7 +85,8 @@ void SensingWorld::landmarks_within(const Eigen::Vector2d& p_world, double radiu
   std::erase_if(out, [&](int solid) {
     return !solids_.is_landmark(solid) || (solids_.disk(solid).centre - p_world).norm() > radius;
   });
-  for (int& solid : out) solid = solids_.landmark_of(solid);  // still ascending: later landmarks are later solids
+  for (int& solid : out)
+    solid = solids_.landmark_of(solid);  // still ascending: later landmarks are later solids
 }
 
 bool SensingWorld::line_of_sight(const Eigen::Vector2d& p_world_sensor, int landmark) const {

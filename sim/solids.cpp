@@ -58,7 +58,8 @@ void Solids::add(const worlds::Wall& wall) {
     shapes_.resize(shapes);
     throw;
   }
-  for (std::size_t i = rectangles; i < rectangles_.size(); ++i) added_.push_back({false, static_cast<int>(i)});
+  for (std::size_t i = rectangles; i < rectangles_.size(); ++i)
+    added_.push_back({false, static_cast<int>(i)});
 }
 
 const Solids::Added* Solids::added(int solid) const {
@@ -77,8 +78,9 @@ int Solids::landmark_of(int solid) const {
 }
 
 int Solids::solid_of(int landmark) const {
-  return landmark < first_landmarks_ ? landmark
-                                     : added_landmarks_[static_cast<std::size_t>(landmark - first_landmarks_)];
+  return landmark < first_landmarks_
+             ? landmark
+             : added_landmarks_[static_cast<std::size_t>(landmark - first_landmarks_)];
 }
 
 void Solids::remove_from(int solid) {

@@ -59,7 +59,7 @@ class Solids {
 
   const Added* added(int solid) const;
 
-  double half_height_;     // [m]
+  double half_height_;        // [m]
   int first_landmarks_ = 0;   // [-] of the world
   int first_rectangles_ = 0;  // [-] of the world
   std::vector<Added> added_;
