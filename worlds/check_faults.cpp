@@ -25,8 +25,9 @@ std::string what_blocks(const Eigen::Vector2d& p, const World& world) {
   return in_landmark ? "inside of a landmark" : "";
 }
 
-/// Why this cannot appear in the world; empty if it can.
-std::string why_not(const Fault& fault, const World& world) {
+}  // namespace
+
+std::string why_it_cannot_appear(const Fault& fault, const World& world) {
   const bool is_kinematic = world.physics.engine == Engine::kinematic;
   if (is_kinematic && (fault.kind == FaultKind::ice || fault.kind == FaultKind::wall))
     return fmt::format("the kinematic engine knows no {}; physics.engine: bullet does",
@@ -37,26 +38,32 @@ std::string why_not(const Fault& fault, const World& world) {
     return "the wall would stand off the ground";
   if (fault.kind != FaultKind::landmark) return "";
   if (world.landmark_sensor.false_detections > 0.0 || world.landmark_sensor.misread_probability > 0.0)
-    return "no landmark can appear where the sensor has false detections or misreads ids: theirs are the next ids";
-  return on_ground(fault.landmark.position, 0.0, world.ground_size) ? "" : "the landmark would stand off the ground";
+    return "no landmark can appear where the sensor has false detections or misreads ids: theirs are the "
+           "next ids";
+  return on_ground(fault.landmark.position, 0.0, world.ground_size)
+             ? ""
+             : "the landmark would stand off the ground";
 }
 
-}  // namespace
+std::string why_it_has_no_room(const Placement& robot, const World& world) {
+  const std::string blocked = what_blocks(robot.position, world);
+  return blocked.empty() ? "" : "the robot would be put where it has no room: " + blocked;
+}
 
 void check_faults(const Node& document, const World& world, std::vector<Problem>& problems) {
   if (!is_sound(problems, {"faults"})) return;
-  const bool places_known = is_sound(problems, {"robot", "ground", "physics", "obstacles", "landmarks.placed"});
+  const bool places_known =
+      is_sound(problems, {"robot", "ground", "physics", "obstacles", "landmarks.placed"});
   const bool noise_known = is_sound(problems, {"sensors"});
   for (std::size_t i = 0; i < world.faults.size(); ++i) {
     const Fault& fault = world.faults[i];
     const std::string path = fmt::format("faults.{}", i);
     if (fault.kind == FaultKind::kidnapping && places_known) {
-      const std::string blocked = what_blocks(fault.to.position, world);
-      if (!blocked.empty())
-        refuse_value(document, path, "the robot would be put where it has no room: " + blocked, problems);
+      const std::string why = why_it_has_no_room(fault.to, world);
+      if (!why.empty()) refuse_value(document, path, why, problems);
     }
     if (places_known && noise_known) {
-      const std::string why = why_not(fault, world);
+      const std::string why = why_it_cannot_appear(fault, world);
       if (!why.empty()) refuse_value(document, path, why, problems);
     }
     const double off = std::abs(fault.size) * world.landmark_sensor.bearing_sd;

@@ -38,7 +38,8 @@ std::optional<Takeover> parse_row(std::string_view row, bool may_release, std::s
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), values[i]);
     if (error != std::errc() || end != cells[i].data() + cells[i].size() ||
         !(std::abs(values[i]) <= largest_value)) {
-      message = fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest_value, cells[i]);
+      message =
+          fmt::format("'{}' must be a number of at most {}, not '{}'", columns[i], largest_value, cells[i]);
       return std::nullopt;
     }
   }

@@ -145,9 +145,8 @@ void describe_physics(Fields& fields, Physics& physics) {
   fields.integer("step_rate_hz", physics.step_rate, between(50, highest_step_rate), "physics steps");
   fields.number("friction", physics.friction, between(0, 10),
                 "friction coefficient between wheels and ground");
-  fields.list(
-      "patches", physics.patches, describe_patch,
-      "rectangles of the ground with a friction of their own; the later one counts");
+  fields.list("patches", physics.patches, describe_patch,
+              "rectangles of the ground with a friction of their own; the later one counts");
   check_length(fields, "patches", physics.patches.size());
 }
 
@@ -319,7 +318,8 @@ void describe_drive(Fields& fields, Drive& drive, SerpentineArea& area) {
   fields.text("pose_from", drive.pose_from,
               "whose pose steers: truth, odometry, or the name of an estimator");
   fields.text("takeover_file", drive.takeover_file,
-              "CSV file t,v,omega: from time t on, this command moves the robot and not the drive; a row without v and "
+              "CSV file t,v,omega: from time t on, this command moves the robot and not the drive; a row "
+              "without v and "
               "omega gives the wheel back to the drive",
               Need::optional);
 }

@@ -12,7 +12,8 @@ namespace worlds {
 namespace {
 
 constexpr std::array<std::string_view, 9> kind_names = {
-    "bad_observation", "outlier", "encoder_jump", "silence", "kidnapping", "ice", "wall", "landmark", "option"};
+    "bad_observation", "outlier", "encoder_jump", "silence", "kidnapping", "ice", "wall",
+    "landmark",        "option"};
 constexpr std::array<std::string_view, 3> value_names = {"not_a_number", "infinite", "absurd"};
 constexpr std::array<std::string_view, 2> wheel_names = {"left", "right"};
 constexpr std::array<std::string_view, 2> sensor_names = {"landmark_sensor", "encoders"};
@@ -57,7 +58,8 @@ std::vector<Fields::Case> fault_cases(Fault& fault) {
          fields.text("option", fault.option,
                      "its key; it is one that can change, or odometry_sd_factor or observation_sd_factor",
                      Need::required);
-         fields.number("new_value", fault.option_value, any_number(), "the value that it gets", Need::required);
+         fields.number("new_value", fault.option_value, any_number(), "the value that it gets",
+                       Need::required);
        }},
   };
 }

@@ -13,8 +13,8 @@ std::optional<Fault> read_fault(std::string_view yaml, const World& world, std::
   World with_it = world;
   with_it.faults.clear();
   read_fields(
-      *document,
-      [&](Fields& fields) { fields.list("faults", with_it.faults, describe_fault, "faults"); }, problems);
+      *document, [&](Fields& fields) { fields.list("faults", with_it.faults, describe_fault, "faults"); },
+      problems);
   check_faults(*document, with_it, problems);
   if (!problems.empty() || with_it.faults.size() != 1) return std::nullopt;
   return with_it.faults.front();

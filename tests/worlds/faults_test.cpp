@@ -38,6 +38,92 @@ TEST(Faults, OfEveryKindAreRead) {
   EXPECT_DOUBLE_EQ(faults[4].to.heading, 90 * degree);
 }
 
+TEST(Faults, ThatPutThingsIntoTheWorldAreRead) {
+  const Folder folder;
+  const LoadResult result =
+      load_text(folder,
+                "faults:\n"
+                "  - {kind: ice, at_s: 1, min_m: [-1, -2], max_m: [3, 4], friction: 0.05}\n"
+                "  - {kind: ice, at_s: 1, min_m: [-1, -2], max_m: [3, 4]}\n"
+                "  - {kind: wall, at_s: 2, points_m: [[1, 1], [1, 3], [3, 3]], closed: true, thickness_m: "
+                "0.3, height_m: 2}\n"
+                "  - {kind: wall, at_s: 2, points_m: [[1, 1], [1, 3]]}\n"
+                "  - {kind: landmark, at_s: 3, x_m: 5, y_m: -6, radius_m: 0.25}\n"
+                "  - {kind: landmark, at_s: 3, x_m: 5, y_m: -6}\n"
+                "  - {kind: option, at_s: 4, estimator: mine, option: theta_x, new_value: 8}\n");
+  ASSERT_TRUE(result.world) << test::text_of(result.problems);
+  const std::vector<Fault>& faults = result.world->faults;
+  ASSERT_EQ(faults.size(), 7U);
+  EXPECT_EQ(faults[0].kind, FaultKind::ice);
+  EXPECT_EQ(faults[0].patch.min, Eigen::Vector2d(-1, -2));
+  EXPECT_EQ(faults[0].patch.max, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(faults[0].patch.friction, 0.05);
+  EXPECT_EQ(faults[1].patch.friction, FrictionPatch().friction);
+  EXPECT_EQ(faults[2].kind, FaultKind::wall);
+  EXPECT_EQ(faults[2].wall.points.size(), 3U);
+  EXPECT_EQ(faults[2].wall.thickness, 0.3);
+  EXPECT_EQ(faults[2].wall.height, 2.0);
+  EXPECT_TRUE(faults[2].wall.closed);
+  EXPECT_EQ(faults[3].wall.thickness, Wall().thickness);
+  EXPECT_FALSE(faults[3].wall.closed);
+  EXPECT_EQ(faults[4].kind, FaultKind::landmark);
+  EXPECT_EQ(faults[4].landmark.position, Eigen::Vector2d(5, -6));
+  EXPECT_EQ(faults[4].landmark.radius, 0.25);
+  EXPECT_EQ(faults[5].landmark.radius, Landmark().radius);
+  EXPECT_EQ(faults[6].kind, FaultKind::option);
+  EXPECT_EQ(faults[6].estimator, "mine");
+  EXPECT_EQ(faults[6].option, "theta_x");
+  EXPECT_EQ(faults[6].option_value, 8.0);
+
+  const Folder elsewhere;
+  const LoadResult again = load_text(elsewhere, result.resolved);
+  ASSERT_TRUE(again.world) << test::text_of(again.problems);
+  EXPECT_EQ(again.resolved, result.resolved);
+}
+
+/// A world with one fault in its second line, and what is said about it.
+TEST(Faults, ThatCannotAppearAreRefusedAtTheirLine) {
+  const auto problem_of = [](const std::string& fault, const std::string& more) {
+    const Folder folder;
+    const std::string text =
+        test::text_of(load_text(folder, "faults:\n  - {at_s: 1, " + fault + "}\n" + more).problems);
+    const std::string path = (folder.path() / "world.yaml").string() + ':';
+    return text.starts_with(path) ? text.substr(path.size()) : text;
+  };
+  const std::string kinematic = "physics: {engine: kinematic}\n";
+  const std::string ice = "kind: ice, min_m: [0, 0], max_m: [1, 1]";
+  const std::string wall = "kind: wall, points_m: [[1, 1], [2, 2]]";
+  EXPECT_EQ(problem_of(ice, kinematic),
+            "2:5: the kinematic engine knows no friction; physics.engine: bullet does\n");
+  EXPECT_EQ(problem_of(wall, kinematic),
+            "2:5: the kinematic engine knows no walls; physics.engine: bullet does\n");
+  EXPECT_EQ(problem_of("kind: landmark, x_m: 1, y_m: 1", kinematic), "");
+  EXPECT_EQ(problem_of("kind: wall, points_m: [[1, 1], [1, 25]]", ""),
+            "2:5: the wall would stand off the ground\n");
+  EXPECT_EQ(problem_of("kind: landmark, x_m: -21, y_m: 0", ""),
+            "2:5: the landmark would stand off the ground\n");
+  for (const char* sensor : {"false_detections_per_scan: 0.1", "misread_probability: 0.1"}) {
+    const std::string sensors = "sensors: {landmark_sensor: {" + std::string(sensor) + "}}\n";
+    EXPECT_NE(problem_of("kind: landmark, x_m: 1, y_m: 1", sensors).find("2:5: no landmark can appear where"),
+              std::string::npos);
+    EXPECT_EQ(problem_of(wall, sensors), "");
+  }
+  EXPECT_NE(problem_of("kind: ice, min_m: [0, 0], max_m: [-1, 1]", "").find("2:"), std::string::npos);
+  EXPECT_NE(problem_of("kind: ice, min_m: [0, 0], max_m: [1, 1], friction: 11", "").find("2:66: 'friction'"),
+            std::string::npos);
+  EXPECT_NE(problem_of("kind: wall, points_m: [[1, 1]]", "").find("'points_m'"), std::string::npos);
+  EXPECT_NE(problem_of("kind: wall, points_m: [[1, 1], [1, 1]]", "").find("two corners in a row are equal"),
+            std::string::npos);
+  EXPECT_NE(problem_of("kind: landmark, x_m: 1", "").find("2:5: the key 'y_m' is missing"),
+            std::string::npos);
+  EXPECT_NE(
+      problem_of("kind: option, estimator: ekf, option: gate", "").find("the key 'new_value' is missing"),
+      std::string::npos);
+  EXPECT_NE(
+      problem_of("kind: option, estimator: ekf, option: gate, new_value: .inf", "").find("2:70: 'new_value'"),
+      std::string::npos);
+}
+
 TEST(Faults, AreInTheResolvedWorld) {
   const Folder folder;
   const LoadResult first = load_text(folder,
