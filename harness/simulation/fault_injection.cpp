@@ -1,5 +1,6 @@
 #include "harness/simulation/fault_injection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,17 @@ const Fault* FaultInjection::thing(double t) {
   if (first == nullptr) return nullptr;
   first->is_done = true;
   return &first->fault;
+}
+
+std::vector<worlds::Landmark> FaultInjection::landmarks_to_come() const {
+  std::vector<Fault> to_come;
+  for (const auto& [fault, is_done] : faults_) {
+    if (fault.kind == FaultKind::landmark && !is_done) to_come.push_back(fault);
+  }
+  std::ranges::stable_sort(to_come, {}, &Fault::at);
+  std::vector<worlds::Landmark> landmarks;
+  for (const Fault& fault : to_come) landmarks.push_back(fault.landmark);
+  return landmarks;
 }
 
 std::optional<worlds::Placement> FaultInjection::kidnapping(double t) {

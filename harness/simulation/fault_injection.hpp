@@ -35,6 +35,9 @@ class FaultInjection {
   /// once. Null: no further one.
   const worlds::Fault* thing(double t);
 
+  /// The landmarks among these that thing() has not returned yet, in its order.
+  std::vector<worlds::Landmark> landmarks_to_come() const;
+
   /// The new true pose T_world_robot if the robot is moved away at `t`. Each kidnapping is returned once.
   std::optional<worlds::Placement> kidnapping(double t);
 

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "sensors/random_stream.hpp"
+#include "worlds/check_faults.hpp"
 #include "worlds/geometry.hpp"
 
 namespace harness {
@@ -74,15 +78,21 @@ std::int64_t checked_rate(const char* what, int rate, int step_rate) {
       fmt::format("the {} rate of {} Hz is not from 1 Hz to the physics' {} Hz", what, rate, step_rate));
 }
 
-constexpr double spare_room = 0.05;  // [m] farther than the robot gets in a physics step
+const char* name_of(worlds::FaultKind kind) {
+  if (kind == worlds::FaultKind::ice) return "ice";
+  return kind == worlds::FaultKind::wall ? "wall" : "landmark";
+}
 
 /// How far the thing that appears is from a point. [m]
 double distance_to(const worlds::Fault& fault, const Eigen::Vector2d& p) {
   if (fault.kind == worlds::FaultKind::landmark)
     return (fault.landmark.position - p).norm() - fault.landmark.radius;
   double least = std::numeric_limits<double>::infinity();
-  for (const worlds::Segment& leg : worlds::legs(fault.wall.points, fault.wall.closed))
-    least = std::min(least, worlds::distance(p, worlds::rectangle(leg, fault.wall.thickness)));
+  for (const worlds::Segment& leg : worlds::legs(fault.wall.points, fault.wall.closed)) {
+    worlds::Rectangle solid = worlds::rectangle(leg, fault.wall.thickness);
+    solid.half.x() += 0.5 * fault.wall.thickness;  // corners are filled
+    least = std::min(least, worlds::distance(p, solid));
+  }
   return least;
 }
 
@@ -141,21 +151,20 @@ LogDescription SimulatedStream::describe() const {
   log.has_true_ids =
       !log.known_association || sensor.false_detections > 0.0 || sensor.misread_probability > 0.0;
   log.true_start = truth();
-  log.landmarks.emplace();
-  for (const worlds::Landmark& landmark : world_.landmarks) {
-    const auto id = static_cast<seif::LandmarkId>(log.landmarks->size());
-    log.landmarks->push_back({id, landmark.position, landmark.radius});
-  }
-  std::vector<worlds::Fault> later;
-  for (const worlds::Fault& fault : world_.faults) {
-    if (fault.kind == worlds::FaultKind::landmark) later.push_back(fault);
-  }
-  std::ranges::stable_sort(later, {}, &worlds::Fault::at);
-  for (const worlds::Fault& fault : later) {
-    const auto id = static_cast<seif::LandmarkId>(log.landmarks->size());
-    log.landmarks->push_back({id, fault.landmark.position, fault.landmark.radius});
-  }
+  log.landmarks = true_landmarks();
   return log;
+}
+
+/// Those that are there, then those to come. The simulator numbers them in this order too.
+std::vector<TrueLandmark> SimulatedStream::true_landmarks() const {
+  std::vector<TrueLandmark> landmarks;
+  const auto add = [&](const worlds::Landmark& landmark) {
+    landmarks.push_back(
+        {static_cast<seif::LandmarkId>(landmarks.size()), landmark.position, landmark.radius});
+  };
+  std::ranges::for_each(world_.landmarks, add);
+  std::ranges::for_each(faults_.landmarks_to_come(), add);
+  return landmarks;
 }
 
 double SimulatedStream::t() const { return static_cast<double>(step_) / world_.physics.step_rate; }
@@ -232,34 +241,43 @@ void SimulatedStream::intervene() {
 void SimulatedStream::let_appear(const worlds::Fault& fault) {
   try {
     if (fault.kind == worlds::FaultKind::ice) return simulator_->add_patch(fault.patch);
-    if (fault.kind == worlds::FaultKind::wall) return simulator_->add_wall(fault.wall);
+    if (fault.kind == worlds::FaultKind::wall) {
+      simulator_->add_wall(fault.wall);
+      return world_.walls.push_back(fault.wall);
+    }
     simulator_->add_landmark(fault.landmark);
     world_.landmarks.push_back(fault.landmark);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(fmt::format("at {} s: the {} of the world's faults cannot appear: {}", t(),
-                                         fault.kind == worlds::FaultKind::wall ? "wall" : "landmark",
-                                         error.what()));
+                                         name_of(fault.kind), error.what()));
   }
 }
 
 void SimulatedStream::check_time(double t) const {
-  if (t < next_step_t() - time_rounding)
+  if (!(t >= next_step_t() - time_rounding))
     throw std::invalid_argument(
         fmt::format("an intervention at {} s comes too late: the earliest is {} s", t, next_step_t()));
 }
 
+/// The simulator looks again when the thing appears. By then the robot has moved by one step, so more room is asked for.
+void SimulatedStream::check_room(const worlds::Fault& fault) const {
+  const bool comes_next = fault.at < next_step_t() + 0.5 * step_s();
+  const double spare = std::max(0.05, 2.0 * world_.robot.max_speed * step_s());  // [m]
+  const double distance = distance_to(fault, simulator_->robot().position);
+  if (comes_next && !(distance >= worlds::footprint_radius(world_.robot) + spare))
+    throw std::invalid_argument("there is no room: the robot stands there");
+}
+
 void SimulatedStream::inject(const worlds::Fault& fault) {
+  using worlds::FaultKind;
   check_time(fault.at);
-  if (fault.kind == worlds::FaultKind::landmark || fault.kind == worlds::FaultKind::wall) {
-    const sim::RobotState robot = simulator_->robot();
-    const double distance = distance_to(fault, robot.position);
-    if (distance < worlds::footprint_radius(world_.robot) + spare_room)
-      throw std::invalid_argument("there is no room: the robot stands there");
-  }
+  if (fault.kind == FaultKind::option) throw std::invalid_argument("the world has no options of estimators");
+  std::string why = worlds::why_it_cannot_appear(fault, world_);
+  if (fault.kind == FaultKind::kidnapping) why = worlds::why_it_has_no_room(fault.to, world_);
+  if (!why.empty()) throw std::invalid_argument(why);
+  if (fault.kind == FaultKind::landmark || fault.kind == FaultKind::wall) check_room(fault);
   faults_.add(fault);
-  if (fault.kind != worlds::FaultKind::landmark) return;
-  const auto id = static_cast<seif::LandmarkId>(description_.landmarks->size());
-  description_.landmarks->push_back({id, fault.landmark.position, fault.landmark.radius});
+  if (fault.kind == FaultKind::landmark) description_.landmarks = true_landmarks();
 }
 
 void SimulatedStream::end_silence(worlds::FaultySensor sensor, double t) {
@@ -270,8 +288,14 @@ void SimulatedStream::end_silence(worlds::FaultySensor sensor, double t) {
 void SimulatedStream::take_over(const worlds::Takeover& row) {
   check_time(row.t);
   std::vector<worlds::Takeover>& rows = world_.drive.takeover;
-  if (rows.size() > next_takeover_ && rows.back().t == row.t) rows.pop_back();
-  rows.push_back(row);
+  const auto to_come = rows.begin() + static_cast<std::ptrdiff_t>(next_takeover_);
+  const auto place =
+      std::lower_bound(to_come, rows.end(), row.t, [](const auto& r, double t) { return r.t < t; });
+  if (place != rows.end() && place->t == row.t) {
+    *place = row;
+  } else {
+    rows.insert(place, row);
+  }
 }
 
 void SimulatedStream::extend(double duration) {

@@ -55,11 +55,13 @@ class SimulatedStream final : public Stream {
   // Interventions. Each takes effect at the physics step that begins at its time, and gives the bits that a world
   // file with it gives. All throw std::invalid_argument if their time is before next_step_t().
 
-  /// A fault of any kind but `option`. Throws std::invalid_argument if it cannot happen here.
+  /// A fault of any kind but `option`. Throws std::invalid_argument if it cannot happen in this world, or if the robot
+  /// stands where something is to appear at the next step. Where the world has landmarks that appear later, theirs are
+  /// the ids after the new one's.
   void inject(const worlds::Fault& fault);
   /// A sensor that is silent without an end speaks again.
   void end_silence(worlds::FaultySensor sensor, double t);
-  /// Somebody takes the wheel or gives it back. A row of the same time as the one before takes its place.
+  /// Somebody takes the wheel or gives it back. The row takes the place of one of the same time.
   void take_over(const worlds::Takeover& row);
   /// The run ends so much later. [s]
   void extend(double duration);
@@ -91,7 +93,9 @@ class SimulatedStream final : public Stream {
   void read_encoders(OdometryEvent& event);
   void scan(ScanEvent& event);
   bool way_is_clear(const Eigen::Vector2d& p_robot_goal, double clearance) const;
+  void check_room(const worlds::Fault& fault) const;
   LogDescription describe() const;
+  std::vector<TrueLandmark> true_landmarks() const;
 
   worlds::World world_;
   std::unique_ptr<sim::Simulator> simulator_;
