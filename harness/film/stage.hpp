@@ -21,8 +21,8 @@ class Stage {
   Stage(const worlds::World& world, bool knows_world, const LogDescription& log,
         const std::optional<Area>& path);
 
-  /// A landmark that joins the world during the run, and the log's landmarks.
-  void add_landmark(const TrueLandmark& landmark) { posts_.put(landmark.landmark, landmark.position); }
+  /// A landmark that joins the log's landmarks during the run, or has another id now.
+  void put_landmark(const TrueLandmark& landmark) { posts_.put(landmark.landmark, landmark.position); }
 
   /// What an overview shows in full. [m]
   const Area& subject() const { return subject_; }

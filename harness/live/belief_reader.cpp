@@ -13,11 +13,11 @@ namespace {
 using std::chrono::milliseconds;
 
 // What one reading may cost.
-constexpr std::size_t most_seen = 512;          // [-] landmarks of the latest scans
-constexpr std::size_t many_others = 512;        // [-] other landmarks, while the run waits ...
-constexpr std::size_t few_others = 96;          // [-] ... and while it does not
-constexpr std::size_t most_link_rows = 600;     // [-] landmarks whose links are read
-constexpr std::size_t most_drawn_links = 2000;  // [-] the strongest
+constexpr std::size_t most_seen = 512;           // [-] landmarks of the latest scans
+constexpr std::size_t many_others = 512;         // [-] other landmarks, while the run waits ...
+constexpr std::size_t few_others = 96;           // [-] ... and while it does not
+constexpr std::size_t most_link_rows = 600;      // [-] landmarks whose links are read
+constexpr std::size_t most_drawn_links = 2000;   // [-] the strongest
 constexpr std::size_t most_ellipses_read = 500;  // [-] of those in view
 constexpr std::size_t most_factorised = 3000;    // [-] a larger map is not factorised while it runs
 constexpr std::size_t most_pictured = 10'000;    // [-] landmarks of a matrix that is drawn
@@ -149,7 +149,8 @@ void BeliefReader::read_links(const LiveView& view, LiveBelief& out) {
     }
   }
   if (links.size() > most_drawn_links) {
-    std::ranges::nth_element(links, links.begin() + most_drawn_links, std::ranges::greater{}, &LiveLink::weight);
+    std::ranges::nth_element(links, links.begin() + most_drawn_links, std::ranges::greater{},
+                             &LiveLink::weight);
     links.resize(most_drawn_links);
   }
   count(links_thrift_, begin);
@@ -177,7 +178,8 @@ void BeliefReader::read_ellipses(const LiveView& view, LiveBelief& out) {
 
 bool BeliefReader::read_matrix(LiveMatrix& out) {
   const Clock::time_point begin = Clock::now();
-  if (!estimator_.failure.empty() || !matrix_thrift_.may(begin, is_idle_) || means_.size() > most_pictured) return false;
+  if (!estimator_.failure.empty() || !matrix_thrift_.may(begin, is_idle_) || means_.size() > most_pictured)
+    return false;
   try {
     picture_.read(*estimator_.filter, means_);
   } catch (const std::exception&) {

@@ -60,16 +60,16 @@ class BeliefReader {
   const LiveEstimator& estimator_;
   RunningFigures figures_;
   TrailPoints trail_;
-  PointIndex means_{4.0};      // landmarks that have been read
-  std::vector<Known> known_;   // in the order in which they were first seen
+  PointIndex means_{4.0};                                      // landmarks that have been read
+  std::vector<Known> known_;                                   // in the order in which they were first seen
   std::unordered_map<seif::LandmarkId, std::size_t> numbers_;  // of `known_`
   std::vector<seif::LandmarkId> noted_;                        // seen since the last reading
-  std::size_t turn_ = 0;                                       // number of the landmark that is read next in turn
-  Area area_;                                                  // [m] that links and ellipses were read for
-  bool is_stale_ = true;                                       // an update has come since links were read
+  std::size_t turn_ = 0;  // number of the landmark that is read next in turn
+  Area area_;             // [m] that links and ellipses were read for
+  bool is_stale_ = true;  // an update has come since links were read
   bool has_stale_ellipses_ = true;
   Thrift links_thrift_, ellipses_thrift_, matrix_thrift_;
-  bool is_idle_ = false;       // during a reading: the run waits
+  bool is_idle_ = false;        // during a reading: the run waits
   Clock::duration apart_ = {};  // of a reading
   MatrixPicture picture_;
 

@@ -31,7 +31,8 @@ class ValueFeed {
   }
 
   /// Appends up to `most` items.
-  void collect(Cursor& cursor, std::size_t most, std::vector<std::uint32_t>& ids, std::vector<float>& values) const {
+  void collect(Cursor& cursor, std::size_t most, std::vector<std::uint32_t>& ids,
+               std::vector<float>& values) const {
     if (cursor.is_new || changes_ - cursor.change > most_changes) cursor = {0, changes_, false};
     const auto append = [&](const Item& item) {
       ids.push_back(item.id);

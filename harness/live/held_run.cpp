@@ -35,8 +35,9 @@ void HeldRun::begin_anew() {
 }
 
 void HeldRun::tell_setting() {
-  const LiveSubject subject{script_.world(),   source_.knows_world, run_->log(),
-                            run_->believers(), source_.registry,    {run_->is_simulated(), true, is_recorded}};
+  const LiveSubject subject{script_.world(),  source_.knows_world,
+                            run_->log(),      run_->believers(),
+                            source_.registry, {run_->is_simulated(), true, is_recorded}};
   // What appears at the next step is shown already.
   channels_.outbox.set(
       std::make_shared<const LiveSetting>(live_setting(subject, now_or_later(), epoch_, ++version_)));
@@ -82,7 +83,7 @@ void HeldRun::inject(const std::string& yaml) {
     script_.take_back();
     throw BadInput(error.what());
   }
-  if (fault.kind == worlds::FaultKind::landmark) run_->observer().add_landmark(run_->log().landmarks->back());
+  if (fault.kind == worlds::FaultKind::landmark) run_->observer().look_at_landmarks();
   if (fault.kind != worlds::FaultKind::kidnapping && fault.kind != worlds::FaultKind::outlier) tell_setting();
 }
 
@@ -101,8 +102,9 @@ void HeldRun::silence(worlds::FaultySensor sensor, bool begins) {
 void HeldRun::change_option(const std::string& estimator, const std::string& option, double value) {
   intervention_t();
   const double t = run_->t();
-  const worlds::Fault& fault = script_.add_fault(fmt::format(
-      "{{at_s: {}, kind: option, estimator: \"{}\", option: \"{}\", new_value: {}}}", t, estimator, option, value));
+  const worlds::Fault& fault = script_.add_fault(
+      fmt::format("{{at_s: {}, kind: option, estimator: \"{}\", option: \"{}\", new_value: {}}}", t,
+                  estimator, option, value));
   run_->loop().change({fault.at, fault.estimator, fault.option, fault.option_value});
 }
 

@@ -42,7 +42,8 @@ class HeldRun {
   void drive(double v, double omega);
   void release();
   /// Another estimator from the beginning on: the run is simulated again. Returns its name.
-  std::string add_beside(const std::string& estimator, const std::string& option, const seif::OptionValue& value);
+  std::string add_beside(const std::string& estimator, const std::string& option,
+                         const seif::OptionValue& value);
 
   bool is_by_hand() const;
   /// Whether the sensor says nothing now.

@@ -98,10 +98,12 @@ PageMessage landmark_message(const LiveEstimator& estimator, seif::LandmarkId la
   const seif::Estimator& filter = *estimator.filter;
   std::vector<seif::LandmarkEstimate> found;
   filter.landmarks(std::array{landmark}, found);
-  if (found.empty()) throw BadInput(fmt::format("landmark {} is not in the map of {}", landmark, estimator.name));
+  if (found.empty())
+    throw BadInput(fmt::format("landmark {} is not in the map of {}", landmark, estimator.name));
   const Eigen::Vector2d mean = found.front().mean;
   const std::vector<seif::Coupling> links = strongest_links(filter, landmark);
-  Json json = {{"kind", "landmark"}, {"estimator", estimator.name}, {"id", landmark}, {"mean", {mean.x(), mean.y()}}};
+  Json json = {
+      {"kind", "landmark"}, {"estimator", estimator.name}, {"id", landmark}, {"mean", {mean.x(), mean.y()}}};
   json["truth"] = truth ? Json({truth->x(), truth->y()}) : Json(nullptr);
   json["covariance"] = json["nees"] = nullptr;
   json["links"] = json["correlations"] = json["observations"] = Json::array();
@@ -111,7 +113,8 @@ PageMessage landmark_message(const LiveEstimator& estimator, seif::LandmarkId la
     if (link.other != seif::no_landmark) group.push_back(link.other);
   }
   if (filter.map().size() <= most_inspected) {
-    const std::optional<Eigen::Vector2d> error = truth ? std::optional<Eigen::Vector2d>(mean - *truth) : std::nullopt;
+    const std::optional<Eigen::Vector2d> error =
+        truth ? std::optional<Eigen::Vector2d>(mean - *truth) : std::nullopt;
     add_covariances(json, filter, group, error);
   }
   for (const SightingLog::Sighting& z : sightings.of(landmark))

@@ -19,9 +19,9 @@ namespace harness {
 class SightingLog {
  public:
   struct Sighting {
-    float t = 0.0F;        // [s]
-    float range = 0.0F;    // [m]
-    float bearing = 0.0F;  // [rad]
+    float t = 0.0F;                          // [s]
+    float range = 0.0F;                      // [m]
+    float bearing = 0.0F;                    // [rad]
     float x = 0.0F, y = 0.0F, theta = 0.0F;  // where the robot was [m, m, rad]; not a number if not known
   };
 

@@ -50,9 +50,10 @@ void tell_address(const PageServer& server, const LiveOptions& options) {
   print_out(fmt::format("Open {}\n", server.url()));
   std::fflush(stdout);
   if (!is_loopback(options.address))
-    tell_warning(fmt::format("other machines can reach port {} at {}: who knows the token sees the run and takes "
-                             "hold of it; nothing is encrypted",
-                             server.port(), options.address));
+    tell_warning(
+        fmt::format("other machines can reach port {} at {}: who knows the token sees the run and takes "
+                    "hold of it; nothing is encrypted",
+                    server.port(), options.address));
   if (options.opens_browser) open_browser(server.url());
 }
 
@@ -82,8 +83,10 @@ class LiveOnlookers::Core final : public RunListener {
         observer_(world, true, {*run.believers, *run.log, channels_.snapshots, channels_.wish}, 1),
         log_(*run.log),
         server_(server_plan(options, world.name), pages_) {
-    const LiveSubject subject{world, true, log_, *run.believers, registry,
-                              {false, false, "this run goes on by itself; seifbed live lets you take hold of one"}};
+    const LiveSubject subject{
+        world,    true,
+        log_,     *run.believers,
+        registry, {false, false, "this run goes on by itself; seifbed live lets you take hold of one"}};
     channels_.outbox.set(std::make_shared<const LiveSetting>(live_setting(subject, world.duration, 1, 1)));
     status_.speed = std::numeric_limits<double>::infinity();
     if (!world.estimators.empty()) status_.watched = world.estimators.front().name;
@@ -96,7 +99,9 @@ class LiveOnlookers::Core final : public RunListener {
   }
   void scan(const ScanEvent& event) override { observer_.scan(event); }
   void dead_reckoning(double t, const seif::Pose2& pose) override { observer_.dead_reckoning(t, pose); }
-  void update(std::size_t estimator, const UpdateRecord& record) override { observer_.update(estimator, record); }
+  void update(std::size_t estimator, const UpdateRecord& record) override {
+    observer_.update(estimator, record);
+  }
   void consistency(std::size_t estimator, const ConsistencyRecord& record) override {
     observer_.consistency(estimator, record);
   }
@@ -104,7 +109,8 @@ class LiveOnlookers::Core final : public RunListener {
  private:
   void look() {
     while (const std::optional<Request> request = channels_.requests.pop())
-      channels_.outbox.send({request->page, said(true, "this run can be watched, and not changed", request->seq)});
+      channels_.outbox.send(
+          {request->page, said(true, "this run can be watched, and not changed", request->seq)});
     observer_.publish_if_due(status_);
   }
 
@@ -116,8 +122,8 @@ class LiveOnlookers::Core final : public RunListener {
   PageServer server_;
 };
 
-LiveOnlookers::LiveOnlookers(const worlds::World& world, const PreparedRun& run, const seif::Registry& registry,
-                             const LiveOptions& options)
+LiveOnlookers::LiveOnlookers(const worlds::World& world, const PreparedRun& run,
+                             const seif::Registry& registry, const LiveOptions& options)
     : core_(std::make_unique<Core>(world, run, registry, options)) {}
 
 LiveOnlookers::~LiveOnlookers() = default;

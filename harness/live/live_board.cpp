@@ -14,9 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What one message holds at most.
-constexpr std::size_t posts_at_once = 20'000;    // [-]
-constexpr std::size_t means_at_once = 4000;      // [-] of each estimator
-constexpr std::size_t ellipses_at_once = 1000;   // [-]
+constexpr std::size_t posts_at_once = 20'000;   // [-]
+constexpr std::size_t means_at_once = 4000;     // [-] of each estimator
+constexpr std::size_t ellipses_at_once = 1000;  // [-]
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 

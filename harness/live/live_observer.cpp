@@ -9,13 +9,14 @@ namespace {
 constexpr double share_for_snapshots = 0.01;  // [-] of the time of a busy run
 constexpr double idle_share_for_snapshots = 0.2;
 constexpr std::chrono::milliseconds watched_period{33};
-constexpr std::chrono::milliseconds alone_period{250};   // while no page is open
-constexpr std::size_t most_for_hidden_rays = 20'000;     // [-] landmarks of a world that is held twice for them
-constexpr std::size_t most_rays = 256;                   // [-]
+constexpr std::chrono::milliseconds alone_period{250};  // while no page is open
+constexpr std::size_t most_for_hidden_rays = 20'000;  // [-] landmarks of a world that is held twice for them
+constexpr std::size_t most_rays = 256;                // [-]
 
 }  // namespace
 
-LiveObserver::LiveObserver(const worlds::World& world, bool knows_world, const Ends& ends, std::uint64_t epoch)
+LiveObserver::LiveObserver(const worlds::World& world, bool knows_world, const Ends& ends,
+                           std::uint64_t epoch)
     : ends_(ends),
       epoch_(epoch),
       stage_(world, knows_world, ends.log, {}),
@@ -24,6 +25,10 @@ LiveObserver::LiveObserver(const worlds::World& world, bool knows_world, const E
       t_(ends.log.start_t),
       truth_(ends.log.true_start) {
   for (const LiveEstimator& estimator : ends.believers.estimators) readers_.emplace_back(estimator);
+}
+
+void LiveObserver::look_at_landmarks() {
+  for (const TrueLandmark& landmark : *ends_.log.landmarks) stage_.put_landmark(landmark);
 }
 
 void LiveObserver::odometry(const OdometryEvent& event) {
@@ -45,7 +50,9 @@ void LiveObserver::dead_reckoning(double /*t*/, const seif::Pose2& T_world_robot
   odometry_trail_.add(T_world_robot.x, T_world_robot.y);
 }
 
-void LiveObserver::update(std::size_t estimator, const UpdateRecord& record) { readers_[estimator].update(record); }
+void LiveObserver::update(std::size_t estimator, const UpdateRecord& record) {
+  readers_[estimator].update(record);
+}
 
 void LiveObserver::consistency(std::size_t estimator, const ConsistencyRecord& record) {
   readers_[estimator].consistency(record);
@@ -97,7 +104,8 @@ LiveObserver::Clock::duration LiveObserver::fill(LiveSnapshot& snapshot, const L
 void LiveObserver::read_rays(LiveSnapshot& snapshot) {
   if (!has_new_scan_) return;
   has_new_scan_ = false;
-  const seif::Pose2 pose = latest_scan_.truth ? latest_scan_.truth->T_world_robot : ends_.believers.dead_reckoning;
+  const seif::Pose2 pose =
+      latest_scan_.truth ? latest_scan_.truth->T_world_robot : ends_.believers.dead_reckoning;
   sight_.scan(latest_scan_, pose, stage_);
   snapshot.rays.clear();
   for (const Sight::Ray& ray : sight_.rays()) {

@@ -47,10 +47,11 @@ class LiveObserver final : public RunListener {
 
   /// Publishes a snapshot if the time for one has come. `truth` is the present one, if the caller knows better than
   /// the latest event; `steps` of the physics.
-  void publish_if_due(const LiveStatus& status, const std::optional<TruePose>& truth = {}, std::int64_t steps = 0);
+  void publish_if_due(const LiveStatus& status, const std::optional<TruePose>& truth = {},
+                      std::int64_t steps = 0);
 
-  /// A landmark was put into the world.
-  void add_landmark(const TrueLandmark& landmark) { stage_.add_landmark(landmark); }
+  /// A landmark was put into the world: the log's landmarks have changed.
+  void look_at_landmarks();
 
  private:
   Clock::duration fill(LiveSnapshot& snapshot, const LiveStatus& status);
@@ -64,8 +65,8 @@ class LiveObserver final : public RunListener {
   TrailPoints true_trail_, odometry_trail_;
   Thrift thrift_;
   LiveView view_;
-  double t_;                        // [s] of the last event
-  std::int64_t updates_ = 0;        // [-]
+  double t_;                  // [s] of the last event
+  std::int64_t updates_ = 0;  // [-]
   std::optional<TruePose> truth_;
   ScanEvent latest_scan_;
   bool has_new_scan_ = false;

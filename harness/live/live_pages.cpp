@@ -26,7 +26,8 @@ void LivePages::tick() {
       if (!letter.to || *letter.to == id) deliver(page, letter.message);
     }
   }
-  for (auto& [id, page] : pages_) page.allowance = std::min(page.allowance + bytes_for_each_tick, bytes_at_once);
+  for (auto& [id, page] : pages_)
+    page.allowance = std::min(page.allowance + bytes_for_each_tick, bytes_at_once);
 }
 
 void LivePages::deliver(Page& page, const PageMessage& message) {

@@ -23,7 +23,8 @@ std::vector<std::string> names_in(const Believers& believers) {
 
 }  // namespace
 
-LiveRun::LiveRun(const LiveSource& source, const worlds::World& world, LiveChannels& channels, std::uint64_t epoch)
+LiveRun::LiveRun(const LiveSource& source, const worlds::World& world, LiveChannels& channels,
+                 std::uint64_t epoch)
     : run_(prepared(source, world)), simulation_(dynamic_cast<SimulatedStream*>(run_.stream.get())) {
   recorder_.emplace(folder_.path(), *run_.log, names_in(*run_.believers));
   observer_.emplace(world, source.knows_world,
@@ -65,7 +66,9 @@ void LiveRun::publish(const LiveStatus& status) {
   std::optional<TruePose> truth;
   if (simulation_ != nullptr) {
     const sim::RobotState robot = simulation_->robot();
-    truth = TruePose{robot.t, {robot.position.x(), robot.position.y(), robot.heading}, robot.left_wheel,
+    truth = TruePose{robot.t,
+                     {robot.position.x(), robot.position.y(), robot.heading},
+                     robot.left_wheel,
                      robot.right_wheel};
   }
   observer_->publish_if_due(status, truth, steps());

@@ -22,9 +22,9 @@ namespace harness {
 
 /// Where a run comes from.
 struct LiveSource {
-  worlds::World world;        // for a log: the settings of its replay
-  std::string resolved;       // the text of the world
-  bool knows_world = true;    // false: a log whose world is not known
+  worlds::World world;           // for a log: the settings of its replay
+  std::string resolved;          // the text of the world
+  bool knows_world = true;       // false: a log whose world is not known
   std::optional<LogChoice> log;  // empty: the world is simulated
   const seif::Registry& registry;
 };
@@ -53,8 +53,8 @@ class LiveRun {
   const SightingLog& sightings() const { return sightings_; }
   LiveObserver& observer() { return observer_.value(); }
 
-  double t() const;             // [s] now
-  std::int64_t steps() const;   // [-] of the physics; of a log: its events
+  double t() const;            // [s] now
+  std::int64_t steps() const;  // [-] of the physics; of a log: its events
   std::int64_t updates() const { return loop_->counts().updates; }
   void publish(const LiveStatus& status);
 

@@ -42,7 +42,10 @@ std::vector<std::string> limits_option() {
 }  // namespace
 
 LiveSaver::LiveSaver(std::filesystem::path program, std::filesystem::path folder, Outbox& outbox)
-    : program_(std::move(program)), folder_(std::move(folder)), outbox_(outbox), thread_([this] { work(); }) {}
+    : program_(std::move(program)),
+      folder_(std::move(folder)),
+      outbox_(outbox),
+      thread_([this] { work(); }) {}
 
 LiveSaver::~LiveSaver() {
   {
@@ -96,13 +99,13 @@ void LiveSaver::carry_out(const Job& job) {
   call({"run", (*job.script / "world.yaml").string(), "--out", run.string(), "--quiet"});
   const Json summary = Json::parse(read_whole_file(run / "summary.json"));
   if (summary.at("trajectory_hash") != order.hash)
-    throw std::runtime_error(fmt::format("{} has other bits than what was seen: this is an error of the program",
-                                         run.string()));
+    throw std::runtime_error(
+        fmt::format("{} has other bits than what was seen: this is an error of the program", run.string()));
   std::filesystem::path result = run;
   if (order.what == "film") {
     result = run / "film.mp4";
-    call({"film", run.string(), "--from", fmt::format("{}", std::max(0.0, order.t - filmed)), "--quiet", "--out",
-          result.string()});
+    call({"film", run.string(), "--from", fmt::format("{}", std::max(0.0, order.t - filmed)), "--quiet",
+          "--out", result.string()});
   } else if (order.what == "report") {
     result = run / "report.html";
     call({"report", run.string(), "--out", result.string()});

@@ -112,9 +112,10 @@ void LiveSession::arrive() {
 
 void LiveSession::set_goal(Goal goal, std::int64_t count) {
   LiveRun& run = held_->run();
+  const bool is_on_its_way = goal == goal_;  // a second step is asked for before the first is done
   goal_ = goal;
-  if (goal == Goal::step) goal_count_ = run.steps() + count;
-  if (goal == Goal::update) goal_count_ = run.updates() + count;
+  if (goal == Goal::step) goal_count_ = (is_on_its_way ? goal_count_ : run.steps()) + count;
+  if (goal == Goal::update) goal_count_ = (is_on_its_way ? goal_count_ : run.updates()) + count;
   if (goal == Goal::go) pacer_.restart(run.t(), Clock::now());
   state_ = goal == Goal::none ? LiveState::paused : LiveState::running;
   if (goal != Goal::stage) {
@@ -123,7 +124,8 @@ void LiveSession::set_goal(Goal goal, std::int64_t count) {
     return;
   }
   if (const LiveEstimator* estimator = watched()) before_ = picture_of(*estimator->filter, run.latest_scan());
-  run.loop().watch_stages([this](std::size_t estimator, seif::Stage stage) { watch_stage(estimator, stage); });
+  run.loop().watch_stages(
+      [this](std::size_t estimator, seif::Stage stage) { watch_stage(estimator, stage); });
 }
 
 const LiveEstimator* LiveSession::watched() const {
@@ -141,8 +143,9 @@ void LiveSession::watch_stage(std::size_t index, seif::Stage stage) {
   const std::vector<worlds::EstimatorChoice>& choices = held_->script().world().estimators;
   const auto choice = std::ranges::find(choices, estimator.name, &worlds::EstimatorChoice::name);
   const std::string& type = choice == choices.end() ? estimator.name : choice->type;
-  channels_.outbox.send({{}, stage_message({estimator.name, type, stage, scan.t}, *estimator.filter, scan,
-                                           before_.value_or(after), after)});
+  channels_.outbox.send({{},
+                         stage_message({estimator.name, type, stage, scan.t}, *estimator.filter, scan,
+                                       before_.value_or(after), after)});
   before_ = std::move(after);
   hold_stage();
 }
@@ -162,7 +165,8 @@ void LiveSession::hold_stage() {
 bool LiveSession::leave_stage(const Request& request) {
   const Ask& ask = request.ask;
   if (std::holds_alternative<asks::Pause>(ask)) return false;
-  const bool ends_update = std::holds_alternative<asks::Go>(ask) || std::holds_alternative<asks::Update>(ask) ||
+  const bool ends_update = std::holds_alternative<asks::Go>(ask) ||
+                           std::holds_alternative<asks::Update>(ask) ||
                            std::holds_alternative<asks::Step>(ask);
   if (!ends_update && !std::holds_alternative<asks::Stage>(ask)) {
     tell(request, "this will be done when the update has ended: press U");
@@ -193,15 +197,15 @@ void LiveSession::answer(const Request& request) {
 /// Goes on; a world that has come to its end goes on for as long again.
 void LiveSession::go() {
   LiveRun& run = held_->run();
-  if (state_ == LiveState::ended && run.is_simulated()) run.simulation().extend(held_->source().world.duration);
+  if (state_ == LiveState::ended && run.is_simulated())
+    run.simulation().extend(held_->source().world.duration);
   set_goal(Goal::go);
 }
 
 /// What changes nothing but the moment that is looked at. False if the request is of another kind.
 bool LiveSession::control(const Request& request) {
   bool is_known = true;
-  std::visit(Overloaded{[&](const asks::Pause&) { set_goal(Goal::none); },
-                        [&](const asks::Go&) { go(); },
+  std::visit(Overloaded{[&](const asks::Pause&) { set_goal(Goal::none); }, [&](const asks::Go&) { go(); },
                         [&](const asks::Step& wanted) { set_goal(Goal::step, wanted.count); },
                         [&](const asks::Update& wanted) { set_goal(Goal::update, wanted.count); },
                         [&](const asks::Stage&) { set_goal(Goal::stage); },
@@ -230,35 +234,40 @@ bool LiveSession::intervene(const Request& request) {
   HeldRun& held = *held_;
   const std::uint64_t epoch = held.epoch();
   const Goal goal = goal_;
-  std::visit(
-      Overloaded{
-          [&](const asks::Drive& w) { held.drive(w.v, w.omega); }, [&](const asks::Release&) { held.release(); },
-          [&](const asks::Kidnap& w) {
-            held.inject(
-                fmt::format("kind: kidnapping, x_m: {}, y_m: {}, heading_deg: {}", w.x, w.y, w.heading_deg));
-          },
-          [&](const asks::Silence& w) { held.silence(w.sensor, w.begins); },
-          [&](const asks::Outlier& w) { held.inject(fmt::format("kind: outlier, size_sigma: {}", w.size_sigma)); },
-          [&](const asks::Ice& w) {
-            held.inject(fmt::format("kind: ice, min_m: [{}, {}], max_m: [{}, {}], friction: {}", w.min.x(), w.min.y(),
-                                    w.max.x(), w.max.y(), w.friction));
-          },
-          [&](const asks::Wall& w) {
-            std::string points;
-            for (const Eigen::Vector2d& p : w.points)
-              points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", p.x(), p.y());
-            held.inject(fmt::format("kind: wall, points_m: [{}]", points));
-          },
-          [&](const asks::Landmark& w) { held.inject(fmt::format("kind: landmark, x_m: {}, y_m: {}", w.x, w.y)); },
-          [&](const asks::Option& w) {
-            held.change_option(w.estimator, w.option, w.value);
-            tell(request, fmt::format("{}: {} is {} from the next measurement on", w.estimator, w.option, w.value));
-          },
-          [&](const asks::Beside& w) {
-            tell(request, fmt::format("{} runs beside", held.add_beside(w.estimator, w.option, w.value)));
-          },
-          [&](const auto&) { is_known = false; }},
-      request.ask);
+  std::visit(Overloaded{[&](const asks::Drive& w) { held.drive(w.v, w.omega); },
+                        [&](const asks::Release&) { held.release(); },
+                        [&](const asks::Kidnap& w) {
+                          held.inject(fmt::format("kind: kidnapping, x_m: {}, y_m: {}, heading_deg: {}", w.x,
+                                                  w.y, w.heading_deg));
+                        },
+                        [&](const asks::Silence& w) { held.silence(w.sensor, w.begins); },
+                        [&](const asks::Outlier& w) {
+                          held.inject(fmt::format("kind: outlier, size_sigma: {}", w.size_sigma));
+                        },
+                        [&](const asks::Ice& w) {
+                          held.inject(fmt::format("kind: ice, min_m: [{}, {}], max_m: [{}, {}], friction: {}",
+                                                  w.min.x(), w.min.y(), w.max.x(), w.max.y(), w.friction));
+                        },
+                        [&](const asks::Wall& w) {
+                          std::string points;
+                          for (const Eigen::Vector2d& p : w.points)
+                            points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", p.x(), p.y());
+                          held.inject(fmt::format("kind: wall, points_m: [{}]", points));
+                        },
+                        [&](const asks::Landmark& w) {
+                          held.inject(fmt::format("kind: landmark, x_m: {}, y_m: {}", w.x, w.y));
+                        },
+                        [&](const asks::Option& w) {
+                          held.change_option(w.estimator, w.option, w.value);
+                          tell(request, fmt::format("{}: {} is {} from the next measurement on", w.estimator,
+                                                    w.option, w.value));
+                        },
+                        [&](const asks::Beside& w) {
+                          tell(request, fmt::format("{} runs beside",
+                                                    held.add_beside(w.estimator, w.option, w.value)));
+                        },
+                        [&](const auto&) { is_known = false; }},
+             request.ask);
   if (held.epoch() != epoch) set_goal(goal == Goal::go ? goal : Goal::none);  // it was simulated again
   return is_known;
 }
@@ -267,13 +276,16 @@ void LiveSession::inspect(const Request& request, const asks::Inspect& wanted) {
   const LiveRun& run = held_->run();
   const std::vector<LiveEstimator>& estimators = run.believers().estimators;
   const auto estimator = std::ranges::find(estimators, wanted.estimator, &LiveEstimator::name);
-  if (estimator == estimators.end()) throw BadInput(fmt::format("there is no estimator '{}'", wanted.estimator));
+  if (estimator == estimators.end())
+    throw BadInput(fmt::format("there is no estimator '{}'", wanted.estimator));
   std::optional<Eigen::Vector2d> truth;
   if (run.log().landmarks && estimator->filter->needs_names()) {
-    const auto it = std::ranges::lower_bound(*run.log().landmarks, wanted.landmark, {}, &TrueLandmark::landmark);
+    const auto it =
+        std::ranges::lower_bound(*run.log().landmarks, wanted.landmark, {}, &TrueLandmark::landmark);
     if (it != run.log().landmarks->end() && it->landmark == wanted.landmark) truth = it->position;
   }
-  channels_.outbox.send({request.page, landmark_message(*estimator, wanted.landmark, truth, run.sightings())});
+  channels_.outbox.send(
+      {request.page, landmark_message(*estimator, wanted.landmark, truth, run.sightings())});
 }
 
 void LiveSession::save(const Request& request, const std::string& what) {

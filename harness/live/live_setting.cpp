@@ -50,7 +50,8 @@ worlds::World world_at(const worlds::World& world, double t) {
 }
 
 std::size_t landmarks_at(const worlds::World& world, double t) {
-  return world.landmarks.size() + static_cast<std::size_t>(std::ranges::count_if(world.faults, [t](const auto& fault) {
+  return world.landmarks.size() +
+         static_cast<std::size_t>(std::ranges::count_if(world.faults, [t](const auto& fault) {
            return fault.kind == worlds::FaultKind::landmark && fault.at <= t;
          }));
 }
@@ -104,18 +105,24 @@ Json estimator_json(const LiveSubject& subject, const LiveEstimator& estimator) 
   if (choice == choices.end()) return json;
   for (const seif::OptionSpec& spec : type_of(subject.registry, *choice).options) {
     const auto value = choice->options.find(spec.key);
-    json["options"].push_back(option_json_of(spec, value == choice->options.end() ? spec.fallback : value->second));
+    json["options"].push_back(
+        option_json_of(spec, value == choice->options.end() ? spec.fallback : value->second));
   }
   return json;
 }
 
 Json colours_json() {
   const render::Scene scene;
-  return {{"sky", css(rgb_of(scene.sky))},          {"ground", css(rgb_of(scene.ground.colour))},
-          {"grid", css(rgb_of(scene.ground.lines))}, {"post", css(paints::post)},
-          {"truth", css(palette::truth)},            {"odometry", css(palette::odometry)},
-          {"orange", css(palette::orange)},          {"purple", css(palette::purple)},
-          {"sky_blue", css(palette::sky_blue)},      {"hidden_ray", css(paints::hidden_ray)},
+  return {{"sky", css(rgb_of(scene.sky))},
+          {"ground", css(rgb_of(scene.ground.colour))},
+          {"grid", css(rgb_of(scene.ground.lines))},
+          {"post", css(paints::post)},
+          {"truth", css(palette::truth)},
+          {"odometry", css(palette::odometry)},
+          {"orange", css(palette::orange)},
+          {"purple", css(palette::purple)},
+          {"sky_blue", css(palette::sky_blue)},
+          {"hidden_ray", css(paints::hidden_ray)},
           {"link", css(paints::faint_ink)}};
 }
 
@@ -128,7 +135,8 @@ Json sensor_json(const LiveSubject& subject) {
 
 Json layers_json(const worlds::FilmLayers& layers) {
   Json json = Json::object();
-  for (const worlds::FilmLayer& layer : worlds::film_layers) json[std::string(layer.name)] = layers.*layer.shown;
+  for (const worlds::FilmLayer& layer : worlds::film_layers)
+    json[std::string(layer.name)] = layers.*layer.shown;
   return json;
 }
 
@@ -187,9 +195,9 @@ LiveSetting live_setting(const LiveSubject& subject, double t, std::uint64_t epo
   for (std::size_t i = 0; i < count; ++i) {
     const TrueLandmark& landmark = (*subject.log.landmarks)[i];
     setting.post_ids.push_back(static_cast<std::uint32_t>(landmark.landmark));
-    setting.posts.insert(setting.posts.end(),
-                         {static_cast<float>(landmark.position.x()), static_cast<float>(landmark.position.y()),
-                          static_cast<float>(std::max(landmark.radius, 0.03))});
+    setting.posts.insert(setting.posts.end(), {static_cast<float>(landmark.position.x()),
+                                               static_cast<float>(landmark.position.y()),
+                                               static_cast<float>(std::max(landmark.radius, 0.03))});
   }
   return setting;
 }

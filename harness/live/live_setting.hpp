@@ -34,9 +34,9 @@ struct LiveSubject {
 /// Ready for the pages.
 struct LiveSetting {
   std::uint64_t epoch = 0;
-  std::uint64_t version = 0;  // one more each time that something was put into the world
-  std::string hello;          // JSON
-  std::vector<float> solids;  // 19 for each: T_world_solid (4 x 4, column-major), size [m]
+  std::uint64_t version = 0;         // one more each time that something was put into the world
+  std::string hello;                 // JSON
+  std::vector<float> solids;         // 19 for each: T_world_solid (4 x 4, column-major), size [m]
   std::vector<std::uint32_t> tints;  // 0xRRGGBB of each solid
   std::vector<std::uint32_t> post_ids;
   std::vector<float> posts;  // x, y, radius of each true landmark [m]

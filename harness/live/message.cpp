@@ -18,7 +18,8 @@ void MessageArrays::clear() {
 void MessageArrays::append(std::string_view name, std::string_view type, std::size_t count, const void* data,
                            std::size_t size) {
   list_.pop_back();
-  fmt::format_to(std::back_inserter(list_), "{}[\"{}\",\"{}\",{}]]", list_.size() > 1 ? "," : "", name, type, count);
+  fmt::format_to(std::back_inserter(list_), "{}[\"{}\",\"{}\",{}]]", list_.size() > 1 ? "," : "", name, type,
+                 count);
   const std::size_t begin = bytes_.size();
   bytes_.resize(begin + (size + 3) / 4 * 4);
   if (size > 0) std::memcpy(bytes_.data() + begin, data, size);

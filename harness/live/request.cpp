@@ -67,7 +67,8 @@ class RequestFields {
 
  private:
   static double number_of(const RequestJson& value, const char* key) {
-    if (!value.is_number() || !(std::abs(value.get<double>()) <= largest)) refuse(key, "a number of at most 1e6");
+    if (!value.is_number() || !(std::abs(value.get<double>()) <= largest))
+      refuse(key, "a number of at most 1e6");
     return value.get<double>();
   }
 
@@ -121,7 +122,8 @@ Ask beside_of(const RequestFields& fields) {
 
 Ask save_of(const RequestFields& fields) {
   const std::string what = fields.text("what");
-  if (what != "run" && what != "film" && what != "report") RequestFields::refuse("what", "run, film or report");
+  if (what != "run" && what != "film" && what != "report")
+    RequestFields::refuse("what", "run, film or report");
   return asks::Save{what};
 }
 
@@ -153,14 +155,25 @@ const std::map<std::string, Reader, std::less<>>& readers() {
       {"release", always<asks::Release>()},
       {"speed", speed_of},
       {"back", [](Fields f) { return Ask(asks::Back{f.number("t")}); }},
-      {"drive", [](Fields f) { return Ask(asks::Drive{f.number("v"), f.number("omega")}); }},
+      {"drive",
+       [](Fields f) {
+         return Ask(asks::Drive{f.number("v"), f.number("omega")});
+       }},
       {"kidnap",
-       [](Fields f) { return Ask(asks::Kidnap{f.number("x"), f.number("y"), f.number("heading_deg")}); }},
+       [](Fields f) {
+         return Ask(asks::Kidnap{f.number("x"), f.number("y"), f.number("heading_deg")});
+       }},
       {"silence", silence_of},
       {"outlier", [](Fields f) { return Ask(asks::Outlier{f.number("size_sigma")}); }},
-      {"ice", [](Fields f) { return Ask(asks::Ice{f.point("min"), f.point("max"), f.number("friction")}); }},
+      {"ice",
+       [](Fields f) {
+         return Ask(asks::Ice{f.point("min"), f.point("max"), f.number("friction")});
+       }},
       {"wall", [](Fields f) { return Ask(asks::Wall{f.points("points")}); }},
-      {"landmark", [](Fields f) { return Ask(asks::Landmark{f.number("x"), f.number("y")}); }},
+      {"landmark",
+       [](Fields f) {
+         return Ask(asks::Landmark{f.number("x"), f.number("y")});
+       }},
       {"option", option_of},
       {"beside", beside_of},
       {"inspect", inspect_of},

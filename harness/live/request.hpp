@@ -30,8 +30,8 @@ struct Step {
 struct Update {
   std::int64_t count = 1;  // [-] to the end of so many updates
 };
-struct Stage {};   // to the end of the next stage of an update
-struct Again {};   // from the beginning
+struct Stage {};    // to the end of the next stage of an update
+struct Again {};    // from the beginning
 struct Release {};  // gives the wheel back to the drive
 struct Speed {
   double factor = 1.0;  // [-] infinity: as fast as it goes
@@ -91,9 +91,10 @@ struct View {
 };
 }  // namespace asks
 
-using Ask = std::variant<asks::Pause, asks::Go, asks::Step, asks::Update, asks::Stage, asks::Again, asks::Release,
-                         asks::Speed, asks::Back, asks::Drive, asks::Kidnap, asks::Silence, asks::Outlier, asks::Ice,
-                         asks::Wall, asks::Landmark, asks::Option, asks::Beside, asks::Inspect, asks::Watch, asks::Save, asks::View>;
+using Ask = std::variant<asks::Pause, asks::Go, asks::Step, asks::Update, asks::Stage, asks::Again,
+                         asks::Release, asks::Speed, asks::Back, asks::Drive, asks::Kidnap, asks::Silence,
+                         asks::Outlier, asks::Ice, asks::Wall, asks::Landmark, asks::Option, asks::Beside,
+                         asks::Inspect, asks::Watch, asks::Save, asks::View>;
 
 struct Request {
   PageId page = 0;

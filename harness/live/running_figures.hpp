@@ -42,8 +42,8 @@ class RunningFigures {
 
   LiveFigures figures_;
   QuantileCounts times_;
-  double squares_ = 0.0;          // [m^2] sum of squared position errors
-  std::int64_t errors_ = 0;       // [-]
+  double squares_ = 0.0;     // [m^2] sum of squared position errors
+  std::int64_t errors_ = 0;  // [-]
   std::vector<LiveChartPoint> points_;
 };
 

@@ -27,16 +27,17 @@ namespace harness {
 namespace {
 
 constexpr const char* takeover_file = "takeover.csv";
-constexpr std::size_t most_faults = 1000;   // [-] of a world file
+constexpr std::size_t most_faults = 1000;     // [-] of a world file
 constexpr std::size_t most_rows = 1'000'000;  // [-] of commands
-constexpr std::size_t most_estimators = 12;  // [-]
+constexpr std::size_t most_estimators = 12;   // [-]
 
 std::string_view name_of(worlds::FaultySensor sensor) {
   return sensor == worlds::FaultySensor::encoders ? "encoders" : "landmark_sensor";
 }
 
 std::string silence_yaml(worlds::FaultySensor sensor, double at, double duration) {
-  return fmt::format("{{kind: silence, at_s: {}, sensor: {}, duration_s: {}}}", at, name_of(sensor), duration);
+  return fmt::format("{{kind: silence, at_s: {}, sensor: {}, duration_s: {}}}", at, name_of(sensor),
+                     duration);
 }
 
 std::string text_of(const seif::OptionValue& value) {
@@ -83,7 +84,8 @@ void set_option(worlds::EstimatorChoice& choice, const std::string& option, cons
 std::string free_name(const worlds::World& world, const std::string& wanted) {
   std::string name = wanted;
   const auto is_taken = [&] {
-    return std::ranges::find(world.estimators, name, &worlds::EstimatorChoice::name) != world.estimators.end();
+    return std::ranges::find(world.estimators, name, &worlds::EstimatorChoice::name) !=
+           world.estimators.end();
   };
   for (int number = 2; is_taken(); ++number) name = fmt::format("{}_{}", wanted, number);
   return name;
@@ -121,7 +123,8 @@ const worlds::Fault& Script::add_fault(const std::string& yaml) {
   if (!fault) throw BadInput(problems.empty() ? "this is no fault" : problems.front().message);
   if (fault->kind == worlds::FaultKind::option) {
     const OptionChange change{fault->at, fault->estimator, fault->option, fault->option_value};
-    const auto choice = std::ranges::find(world_.estimators, change.estimator, &worlds::EstimatorChoice::name);
+    const auto choice =
+        std::ranges::find(world_.estimators, change.estimator, &worlds::EstimatorChoice::name);
     if (choice == world_.estimators.end())
       throw BadInput(fmt::format("there is no estimator '{}'", change.estimator));
     worlds::EstimatorChoice now = *choice;
@@ -146,7 +149,9 @@ const worlds::Fault& Script::begin_silence(worlds::FaultySensor sensor, double t
 
 void Script::end_silence(worlds::FaultySensor sensor, double t) {
   for (auto& [yaml, fault] : faults_) {
-    if (fault.kind != worlds::FaultKind::silence || fault.sensor != sensor || fault.duration != worlds::open_end) continue;
+    if (fault.kind != worlds::FaultKind::silence || fault.sensor != sensor ||
+        fault.duration != worlds::open_end)
+      continue;
     fault.duration = t - fault.at;
     yaml = silence_yaml(sensor, fault.at, fault.duration);
   }
@@ -166,7 +171,8 @@ void Script::take_over(const worlds::Takeover& row) {
 std::string Script::add_beside(const std::string& estimator, const std::string& option,
                                const seif::OptionValue& value) {
   const auto original = std::ranges::find(world_.estimators, estimator, &worlds::EstimatorChoice::name);
-  if (original == world_.estimators.end()) throw BadInput(fmt::format("there is no estimator '{}'", estimator));
+  if (original == world_.estimators.end())
+    throw BadInput(fmt::format("there is no estimator '{}'", estimator));
   if (world_.estimators.size() >= most_estimators)
     throw BadInput(fmt::format("{} estimators run already, and no more can", most_estimators));
   worlds::EstimatorChoice copy = *original;
@@ -192,7 +198,8 @@ void Script::write(const std::filesystem::path& folder, double t) const {
   if (!world_.drive.takeover.empty())
     worlds::apply_override(*document, fmt::format("drive.takeover_file={}", takeover_file), problems);
   for (const worlds::EstimatorChoice& choice : beside_)
-    worlds::apply_override(*document, fmt::format("estimators.{}={}", choice.name, yaml_of(choice)), problems);
+    worlds::apply_override(*document, fmt::format("estimators.{}={}", choice.name, yaml_of(choice)),
+                           problems);
   if (!problems.empty()) throw BadInput(worlds::to_string(problems.front()));
 
   worlds::World written = base_;

@@ -36,7 +36,8 @@ class Script {
   void take_over(const worlds::Takeover& row);
   /// Adds a copy of an estimator with another value of an option, and returns its name. It runs from the beginning.
   /// Throws BadInput.
-  std::string add_beside(const std::string& estimator, const std::string& option, const seif::OptionValue& value);
+  std::string add_beside(const std::string& estimator, const std::string& option,
+                         const seif::OptionValue& value);
 
   /// Writes world.yaml and takeover.csv, of a run that ends at `t` [s], to a folder.
   void write(const std::filesystem::path& folder, double t) const;

@@ -45,8 +45,8 @@ struct LiveRay {
 
 /// The charts at one update; NaN where a value is not known.
 struct LiveChartPoint {
-  float t = 0.0F;          // [s]
-  float update_us = 0.0F;  // [us]
+  float t = 0.0F;                                               // [s]
+  float update_us = 0.0F;                                       // [us]
   float error = std::numeric_limits<float>::quiet_NaN();        // [m] of the position
   float three_sigma = std::numeric_limits<float>::quiet_NaN();  // [m] of the position, its longest axis
   float nees = std::numeric_limits<float>::quiet_NaN();         // [-] of the pose, for each degree of freedom
@@ -54,8 +54,8 @@ struct LiveChartPoint {
 
 /// The matrix of an estimator as a picture.
 struct LiveMatrix {
-  int size = 0;                      // [-] cells along an edge; 0: none
-  double fill = 0.0;                 // [-] share of blocks that are not zero
+  int size = 0;                        // [-] cells along an edge; 0: none
+  double fill = 0.0;                   // [-] share of blocks that are not zero
   std::vector<std::uint8_t> darkness;  // (size x size) 0: white, 255: black
 };
 
@@ -79,12 +79,12 @@ struct LiveBelief {
   std::optional<Eigen::Matrix3d> covariance;  // (3 x 3) of the pose
   std::string failure;                        // empty: it runs
   LiveFigures figures;
-  std::vector<LiveMean> means;          // those that have changed since the last snapshot
-  std::vector<LiveEllipse> ellipses;    // the same
-  std::vector<seif::LandmarkId> active;  // all
+  std::vector<LiveMean> means;                 // those that have changed since the last snapshot
+  std::vector<LiveEllipse> ellipses;           // the same
+  std::vector<seif::LandmarkId> active;        // all
   std::optional<std::vector<LiveLink>> links;  // those to draw; empty: as before
-  std::vector<LivePoint> trail;          // since the last snapshot
-  std::vector<LiveChartPoint> charts;    // since the last snapshot
+  std::vector<LivePoint> trail;                // since the last snapshot
+  std::vector<LiveChartPoint> charts;          // since the last snapshot
 };
 
 enum class LiveState { running, paused, stage, rewinding, ended };
@@ -103,8 +103,8 @@ struct LiveStatus {
 };
 
 struct LiveSnapshot {
-  std::uint64_t epoch = 0;  // one more each time that the run begins anew
-  double t = 0.0;           // [s]
+  std::uint64_t epoch = 0;   // one more each time that the run begins anew
+  double t = 0.0;            // [s]
   std::int64_t steps = 0;    // [-] of the physics
   std::int64_t updates = 0;  // [-]
   LiveStatus status;

@@ -59,7 +59,8 @@ std::vector<float> strengths_of(const std::vector<seif::LandmarkId>& ids, const 
   for (const seif::LandmarkId a : all) {
     for (const seif::LandmarkId b : all) {
       const std::optional<double> own = picture.strength(a, b);
-      strengths.push_back(static_cast<float>(a == b ? 1.0 : own.value_or(other.strength(a, b).value_or(0.0))));
+      strengths.push_back(
+          static_cast<float>(a == b ? 1.0 : own.value_or(other.strength(a, b).value_or(0.0))));
     }
   }
   return strengths;
@@ -125,7 +126,8 @@ BeliefPicture picture_of(const seif::Estimator& estimator, const seif::Scan& sca
     }
   }
   for (const seif::LandmarkEstimate& landmark : known) {
-    if (picture.rows.size() <= most_rows) estimator.couplings(landmark.landmark, picture.rows[landmark.landmark]);
+    if (picture.rows.size() <= most_rows)
+      estimator.couplings(landmark.landmark, picture.rows[landmark.landmark]);
   }
   return picture;
 }

@@ -22,8 +22,9 @@ inline constexpr std::size_t most_shown_in_stage = 24;
 /// is small.
 struct BeliefPicture {
   std::unordered_map<seif::LandmarkId, std::vector<seif::Coupling>> rows;  // no_landmark: the robot
-  std::vector<seif::LandmarkId> map;  // all landmarks, in the order of `values`; empty if the map is not small
-  Eigen::MatrixXd values;             // (3+2N x 3+2N) of a small map; empty otherwise
+  std::vector<seif::LandmarkId>
+      map;                 // all landmarks, in the order of `values`; empty if the map is not small
+  Eigen::MatrixXd values;  // (3+2N x 3+2N) of a small map; empty otherwise
   seif::Pose2 pose;
 
   /// The strength of a block; nothing if neither of its rows is in the picture. [-]
@@ -58,6 +59,7 @@ struct StageWords {
 };
 
 /// Equations are those of the 2002 report, where the stage has one there.
-StageWords words_for(seif::Stage stage, std::string_view type, seif::BeliefMatrix matrix, const StageFacts& facts);
+StageWords words_for(seif::Stage stage, std::string_view type, seif::BeliefMatrix matrix,
+                     const StageFacts& facts);
 
 }  // namespace harness

@@ -17,7 +17,8 @@ function clearGroup(group) { while (group.children.length > 0) group.remove(grou
 
 function makeGround(hello) {
   const [width, height] = hello.ground;
-  const plane = new THREE.Mesh(new THREE.PlaneBufferGeometry(width, height), new THREE.MeshBasicMaterial({ color: hello.colours.ground }));
+  const plane = new THREE.Mesh(new THREE.PlaneBufferGeometry(width, height), new THREE.MeshBasicMaterial({ color: hello.colours.ground, depthWrite: false }));
+  plane.renderOrder = -3;
   plane.position.z = -0.02;
   world.group.add(plane);
   const step = Math.max(width, height) > 400 ? 10 : 1;
@@ -26,7 +27,8 @@ function makeGround(hello) {
   for (let y = Math.ceil(-height / 2 / step) * step; y <= height / 2; y += step) lines.push(-width / 2, y, 0, width / 2, y, 0);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(lines), 3));
-  world.grid = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: hello.colours.grid }));
+  world.grid = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: hello.colours.grid, depthWrite: false }));
+  world.grid.renderOrder = -2;
   world.grid.position.z = -0.01;
   world.group.add(world.grid);
 }

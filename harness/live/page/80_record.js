@@ -77,8 +77,8 @@ byId("save-still").onclick = () => {
 /** This very page, with what was seen in it. */
 async function pageOfWhatWasSeen() {
   const source = await (await fetch(location.href)).text();
-  const end = source.lastIndexOf("</body>");
-  return `${source.slice(0, end)}<script type="text/plain" id="recorded">${base64Of(packed())}</` + `script>${source.slice(end)}`;
+  const first = source.indexOf("<script>");  // the page's own scripts look for it
+  return `${source.slice(0, first)}<script type="text/plain" id="recorded">${base64Of(packed())}</` + `script>\n${source.slice(first)}`;
 }
 byId("save-page").onclick = async () => {
   const url = URL.createObjectURL(new Blob([await pageOfWhatWasSeen()], { type: "text/html" }));

@@ -1,6 +1,5 @@
 #include "browser_page.hpp"
 
-#include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -12,6 +11,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -79,7 +79,8 @@ pid_t start(const std::vector<std::string>& words, const std::filesystem::path& 
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // its own processes end with it
   pid_t process = -1;
-  const int error = posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
+  const int error =
+      posix_spawnp(&process, arguments.front(), &actions, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::runtime_error("cannot start " + words.front());
@@ -119,12 +120,14 @@ BrowserPage::BrowserPage(const TemporaryFolder& folder, const std::string& brows
                          const PageScreen& screen)
     : core_(std::make_unique<Core>()) {
   const std::filesystem::path profile = folder / "profile";
-  core_->process = start({browser, "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
-                          "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--remote-debugging-port=0",
-                          "--user-data-dir=" + profile.string(),
-                          "--window-size=" + std::to_string(screen.width) + "," + std::to_string(screen.height),
-                          std::string("--blink-settings=preferredColorScheme=") + (screen.is_dark ? "0" : "1"), url},
-                         folder / "browser.log");
+  std::filesystem::remove_all(profile);  // that of an earlier page
+  core_->process =
+      start({browser, "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--remote-debugging-port=0",
+             "--user-data-dir=" + profile.string(),
+             "--window-size=" + std::to_string(screen.width) + "," + std::to_string(screen.height),
+             std::string("--blink-settings=preferredColorScheme=") + (screen.is_dark ? "0" : "1"), url},
+            folder / "browser.log");
   const unsigned port = *eventually(
       [&]() -> std::optional<unsigned> {
         std::ifstream file(profile / "DevToolsActivePort");
@@ -143,7 +146,8 @@ BrowserPage::~BrowserPage() = default;
 
 json BrowserPage::call(const std::string& method, json parameters) {
   const int id = ++core_->calls;
-  core_->socket.write(asio::buffer(json{{"id", id}, {"method", method}, {"params", std::move(parameters)}}.dump()));
+  core_->socket.write(
+      asio::buffer(json{{"id", id}, {"method", method}, {"params", std::move(parameters)}}.dump()));
   while (true) {
     beast::flat_buffer buffer;
     core_->socket.read(buffer);
@@ -155,8 +159,8 @@ json BrowserPage::call(const std::string& method, json parameters) {
 }
 
 json BrowserPage::evaluate(const std::string& expression) {
-  const json result = call("Runtime.evaluate",
-                           {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
+  const json result =
+      call("Runtime.evaluate", {{"expression", expression}, {"awaitPromise", true}, {"returnByValue", true}});
   if (result.contains("exceptionDetails"))
     throw std::runtime_error(expression + ": " + result.at("exceptionDetails").dump());
   return result.at("result").value("value", json());
@@ -174,9 +178,11 @@ void BrowserPage::wait_until(const std::string& expression) {
 }
 
 void BrowserPage::press(const std::string& key) {
-  const std::string code = key == " " ? "Space" : key.size() == 1 ? "Key" + std::string(1, static_cast<char>(std::toupper(key[0]))) : key;
-  for (const char* type : {"keyDown", "keyUp"})
-    call("Input.dispatchKeyEvent", {{"type", type}, {"key", key}, {"code", code}, {"text", type[3] == 'D' ? key : ""}});
+  for (const char* type : {"keyDown", "keyUp"}) {
+    json parameters = {{"type", type}, {"key", key}};
+    if (key.size() == 1 && type == std::string("keyDown")) parameters["text"] = key;
+    call("Input.dispatchKeyEvent", std::move(parameters));
+  }
 }
 
 void BrowserPage::drag(double from_x, double from_y, double to_x, double to_y) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -114,7 +114,9 @@ TEST(LiveSession, GoesBackToAnEarlierMomentAndOnToTheSameBits) {
   go_past(session, 6.0);
   const std::string before = session.save().hash;
   session.ask(at("back", {{"t", 3.0}}));
-  const json frame = session.wait_for("frame", [](const json& f) { return f.at("epoch") == 2 && f.at("state") == "paused"; }).json;
+  const json frame =
+      session.wait_for("frame", [](const json& f) { return f.at("epoch") == 2 && f.at("state") == "paused"; })
+          .json;
   EXPECT_NEAR(frame.at("t").get<double>(), 3.0, 1e-9);
   go_past(session, 6.0);
   EXPECT_EQ(session.save().hash, before);

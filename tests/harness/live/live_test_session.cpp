@@ -76,9 +76,10 @@ ReceivedMessage LiveTestSession::wait_for_state(const std::string& state) {
 
 std::string LiveTestSession::refusal(nlohmann::json request) {
   const int seq = ask(std::move(request));
-  return wait_for("said", [&](const nlohmann::json& said) {
-           return said.at("level") == "error" && (said.at("seq") == seq || said.at("seq") == 0);
-         })
+  return wait_for("said",
+                  [&](const nlohmann::json& said) {
+                    return said.at("level") == "error" && (said.at("seq") == seq || said.at("seq") == 0);
+                  })
       .json.at("text");
 }
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
-#include "harness/web/page_client.hpp"
 #include "harness/live/live_pages.hpp"
 #include "harness/live/live_session.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/web/page_client.hpp"
 
 namespace harness::test {
 
@@ -27,7 +27,8 @@ class LiveTestSession {
   int ask(nlohmann::json request);
 
   /// The next message of this kind for which `wanted` holds. Throws std::runtime_error after a minute.
-  ReceivedMessage wait_for(const std::string& kind, const std::function<bool(const nlohmann::json&)>& wanted = {});
+  ReceivedMessage wait_for(const std::string& kind,
+                           const std::function<bool(const nlohmann::json&)>& wanted = {});
   /// The next frame in this state.
   ReceivedMessage wait_for_state(const std::string& state);
   /// The error that answers this request.
@@ -36,9 +37,9 @@ class LiveTestSession {
   ReceivedMessage update(int count);
 
   struct Saved {
-    std::string hash;         // of the session
-    std::string hash_again;   // of a run of the saved world, from its file
-    std::string world;        // the text of the file
+    std::string hash;        // of the session
+    std::string hash_again;  // of a run of the saved world, from its file
+    std::string world;       // the text of the file
   };
   /// Saves what was done, and runs the saved world as `seifbed run` does.
   Saved save();

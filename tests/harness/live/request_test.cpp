@@ -36,7 +36,8 @@ TEST(ReadRequest, ReadsEachKind) {
   const auto beside = std::get<asks::Beside>(
       read_request(R"({"do":"beside","estimator":"seif","option":"mean_recovery","value":"exact"})").ask);
   EXPECT_EQ(std::get<std::string>(beside.value), "exact");
-  EXPECT_EQ(std::get<asks::Wall>(read_request(R"({"do":"wall","points":[[0,0],[1,1]]})").ask).points.size(), 2U);
+  EXPECT_EQ(std::get<asks::Wall>(read_request(R"({"do":"wall","points":[[0,0],[1,1]]})").ask).points.size(),
+            2U);
 }
 
 TEST(ReadRequest, SaysWhatIsWrong) {
