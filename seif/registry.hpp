@@ -29,7 +29,7 @@ struct OptionSpec {
   std::vector<std::string> choices = {};  // strings only; empty: any
   std::optional<OptionValue> without_names = {};  // the value with which it does without landmarks' names
   bool changeable = false;  // numbers only: Estimator::change_option() can change it between two updates
-  std::string help;                               // one sentence, with the unit
+  std::string help;         // one sentence, with the unit
 };
 
 /// A kind of estimator: its name, its options, and how it is made.

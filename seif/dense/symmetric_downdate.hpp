@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+
+#include "seif/aligned_numbers.hpp"
 
 namespace seif {
 
@@ -19,7 +20,7 @@ class SymmetricDowndate {
   void operator()(Eigen::MatrixXd& Sigma, const Eigen::Ref<const Eigen::MatrixXd>& W);
 
  private:
-  std::vector<double> by_rows_;  // W in tiles of rows, each column by column; zero beyond n
+  AlignedNumbers by_rows_;  // W in tiles of rows, each column by column; zero beyond n
 };
 
 }  // namespace seif

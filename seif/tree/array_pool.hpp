@@ -7,9 +7,10 @@
 #include <bit>
 #include <cassert>
 #include <cstddef>
-#include <memory>
 #include <utility>
 #include <vector>
+
+#include "seif/aligned_numbers.hpp"
 
 namespace seif {
 
@@ -48,11 +49,11 @@ class ArrayPool {
 
    private:
     friend class ArrayPool;
-    Array(ArrayPool* pool, std::unique_ptr<double[]> memory, std::size_t shelf, std::size_t size)
+    Array(ArrayPool* pool, AlignedArray memory, std::size_t shelf, std::size_t size)
         : pool_(pool), memory_(std::move(memory)), shelf_(shelf), size_(size) {}
 
     ArrayPool* pool_ = nullptr;
-    std::unique_ptr<double[]> memory_;
+    AlignedArray memory_;
     std::size_t shelf_ = 0;  // that it returns to
     std::size_t size_ = 0;
   };
@@ -70,7 +71,7 @@ class ArrayPool {
     for (std::size_t shelf = smallest; shelf < end; ++shelf) {
       auto& free = shelves_[shelf].free;
       if (free.empty()) continue;
-      std::unique_ptr<double[]> memory = std::move(free.back());
+      AlignedArray memory = std::move(free.back());
       free.pop_back();
       return {this, std::move(memory), shelf, size};
     }
@@ -83,7 +84,7 @@ class ArrayPool {
  private:
   /// Arrays of one capacity. The capacity grows by a seventh to a quarter from shelf to shelf.
   struct Shelf {
-    std::vector<std::unique_ptr<double[]>> free;
+    std::vector<AlignedArray> free;
     std::size_t made = 0;
   };
   static constexpr std::size_t shelves = 128;
@@ -100,13 +101,13 @@ class ArrayPool {
     return 4 * static_cast<std::size_t>(shift) + ((size - 1) >> shift);
   }
 
-  std::unique_ptr<double[]> made(Shelf& shelf, std::size_t capacity) {
+  AlignedArray made(Shelf& shelf, std::size_t capacity) {
     ++shelf.made;
     if (shelf.made > shelf.free.capacity()) shelf.free.reserve(2 * shelf.made);  // for all to come back
     bytes_ += capacity * sizeof(double);
-    return std::make_unique_for_overwrite<double[]>(capacity);
+    return make_aligned_array(capacity);
   }
-  void take_back(std::unique_ptr<double[]> memory, std::size_t shelf) noexcept {
+  void take_back(AlignedArray memory, std::size_t shelf) noexcept {
     shelves_[shelf].free.push_back(std::move(memory));
   }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "seif/aligned_numbers.hpp"
 #include "seif/tree/array_pool.hpp"
 #include "seif/tree/group_motion.hpp"
 
@@ -38,9 +39,9 @@ struct Condensed {
   int e = 0, b = 0;               // [-] rows of E, of B
   ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
   ArrayPool::Array S;             // (b x b) lower triangle, by column
-  std::vector<double> y;          // (e)
-  std::vector<double> s;          // (b) the residual where B is at its reference
-  std::vector<double> reference;  // (b) of B; what its mean has gone since is d_B
+  AlignedNumbers y;          // (e)
+  AlignedNumbers s;          // (b) the residual where B is at its reference
+  AlignedNumbers reference;  // (b) of B; what its mean has gone since is d_B
 
   auto L_and_G() const { return Eigen::Map<const Eigen::MatrixXd>(factor.data(), e + b, e); }
   /// S in full to `full` (b x b), and back.
