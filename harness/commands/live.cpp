@@ -1,3 +1,5 @@
+#include "harness/live/live.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 
 #include "harness/commands/commands.hpp"
 #include "harness/files/bad_input.hpp"
-#include "harness/live/live.hpp"
 #include "harness/readers/open_log.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/recording/unfinished.hpp"
@@ -98,9 +99,10 @@ int live(LiveArguments arguments, const seif::Registry& registry) {
 void add_page_options(CLI::App& command, LiveOptions& options) {
   command.add_option("--port", options.port, "Port of the page; by default any free one")
       ->check(whole_number(1, 65535));
-  command.add_option("--bind", options.address,
-                     "Address to listen at; 127.0.0.1 by default: this machine alone. 0.0.0.0: other machines too; "
-                     "nothing is encrypted, and who knows the token takes hold of the run");
+  command.add_option(
+      "--bind", options.address,
+      "Address to listen at; 127.0.0.1 by default: this machine alone. 0.0.0.0: other machines too; "
+      "nothing is encrypted, and who knows the token takes hold of the run");
 }
 
 void add_live(CommandLine line) {
@@ -112,8 +114,10 @@ void add_live(CommandLine line) {
       "  seifbed live worlds/blackboard.yaml --paused\n"
       "  seifbed live runs/courtyard-1\n"
       "  seifbed live worlds/forest.yaml --speed max --set estimators.seif.theta_max=12\n"
-      "It prints an address, and opens it where there is a display. Ctrl-C ends it. What was done is saved from the\n"
-      "page, as a world file and a file of commands: seifbed run gives the same bits again. docs/live.md says more.");
+      "It prints an address, and opens it where there is a display. Ctrl-C ends it. What was done is saved "
+      "from the\n"
+      "page, as a world file and a file of commands: seifbed run gives the same bits again. docs/live.md "
+      "says more.");
   auto arguments = std::make_shared<LiveArguments>();
   command->add_option("WORLD|RUN|LOG", arguments->log.path, "World file, folder of a run, or any other log")
       ->required();

@@ -100,8 +100,9 @@ void add_run(CommandLine line) {
   command->add_flag("--film", arguments->film,
                     "Film it as it runs, to film.mp4 in its folder, as the world file's film section says; "
                     "drawing between the updates makes their times a little longer");
-  CLI::Option* look = command->add_flag(
-      "--live", arguments->live, "Let browsers look at it as it runs; it prints the address. See seifbed live");
+  CLI::Option* look =
+      command->add_flag("--live", arguments->live,
+                        "Let browsers look at it as it runs; it prints the address. See seifbed live");
   look->excludes(command->get_option("--film"));
   add_page_options(*command, arguments->page);
   CLI::Option* resume = command->add_flag(

@@ -10,11 +10,11 @@
 namespace harness {
 
 const ScriptLibrary& chart_js() {
-  static const ScriptLibrary library{"the plotting library Chart.js",
-                                     "libjs-chart.js",
-                                     {"/usr/share/javascript/chart.js/chart.min.js",
-                                      "/usr/share/nodejs/chart.js/dist/chart.min.js",
-                                      "/usr/local/share/javascript/chart.js/chart.min.js"}};
+  static const ScriptLibrary library{
+      "the plotting library Chart.js",
+      "libjs-chart.js",
+      {"/usr/share/javascript/chart.js/chart.min.js", "/usr/share/nodejs/chart.js/dist/chart.min.js",
+       "/usr/local/share/javascript/chart.js/chart.min.js"}};
   return library;
 }
 
@@ -28,11 +28,12 @@ const ScriptLibrary& three_js() {
 }
 
 const ScriptLibrary& orbit_controls() {
-  static const ScriptLibrary library{"OrbitControls of the 3D library three.js",
-                                     "libjs-three",
-                                     {"/usr/share/javascript/three/examples/js/controls/OrbitControls.js",
-                                      "/usr/share/nodejs/three/examples/js/controls/OrbitControls.js",
-                                      "/usr/local/share/javascript/three/examples/js/controls/OrbitControls.js"}};
+  static const ScriptLibrary library{
+      "OrbitControls of the 3D library three.js",
+      "libjs-three",
+      {"/usr/share/javascript/three/examples/js/controls/OrbitControls.js",
+       "/usr/share/nodejs/three/examples/js/controls/OrbitControls.js",
+       "/usr/local/share/javascript/three/examples/js/controls/OrbitControls.js"}};
   return library;
 }
 
@@ -40,8 +41,7 @@ std::string read_script(const ScriptLibrary& library) {
   for (const std::string_view file : library.files) {
     if (std::filesystem::exists(file)) return read_whole_file(file);
   }
-  throw std::runtime_error(
-      fmt::format("{} is missing (Debian's package {})", library.name, library.package));
+  throw std::runtime_error(fmt::format("{} is missing (Debian's package {})", library.name, library.package));
 }
 
 }  // namespace harness

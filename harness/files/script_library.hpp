@@ -8,8 +8,8 @@
 namespace harness {
 
 struct ScriptLibrary {
-  std::string_view name;     // as people call it
-  std::string_view package;  // of Debian
+  std::string_view name;                // as people call it
+  std::string_view package;             // of Debian
   std::vector<std::string_view> files;  // where it may be installed
 };
 

@@ -193,21 +193,21 @@ std::string escaped(std::string_view text) {
 
 std::string to_html(const Page& page, const std::filesystem::path& file, std::string_view library) {
   return fill_template(page_html(), {{"title", escaped(page.title)},
-                              {"style", std::string(page_css())},
-                              {"facts", facts_html(page.facts)},
-                              {"notes", notes_html(page.notes)},
-                              {"tables", joined(page.tables, table_html)},
-                              {"descriptions", joined(page.descriptions, description_html)},
-                              {"details", joined(page.details, table_html)},
-                              {"figures", joined(page.figures, figure_html)},
-                              {"images", joined(page.images, image_html)},
-                              {"matrices", matrices_html(page)},
-                              {"film", film_html(page.film, file)},
-                              {"listings", joined(page.listings, listing_html)},
-                              {"version", escaped(program_version())},
-                              {"data", data_json(page)},
-                              {"library", std::string(library)},
-                              {"script", std::string(page_js())}});
+                                     {"style", std::string(page_css())},
+                                     {"facts", facts_html(page.facts)},
+                                     {"notes", notes_html(page.notes)},
+                                     {"tables", joined(page.tables, table_html)},
+                                     {"descriptions", joined(page.descriptions, description_html)},
+                                     {"details", joined(page.details, table_html)},
+                                     {"figures", joined(page.figures, figure_html)},
+                                     {"images", joined(page.images, image_html)},
+                                     {"matrices", matrices_html(page)},
+                                     {"film", film_html(page.film, file)},
+                                     {"listings", joined(page.listings, listing_html)},
+                                     {"version", escaped(program_version())},
+                                     {"data", data_json(page)},
+                                     {"library", std::string(library)},
+                                     {"script", std::string(page_js())}});
 }
 
 }  // namespace harness

@@ -29,12 +29,14 @@ using Clock = std::chrono::steady_clock;
 using Error = boost::system::error_code;
 
 constexpr std::chrono::seconds request_timeout{10};
-constexpr std::chrono::seconds idle_timeout{30};   // half of it later, a page is asked whether it is still there
+constexpr std::chrono::seconds idle_timeout{
+    30};  // half of it later, a page is asked whether it is still there
 constexpr std::size_t longest_header = 16 * 1024;  // [byte]
 
 /// The page may run its own script, and connect to this server. Everything else is forbidden to it.
 constexpr const char* content_policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self' ws: blob:; "
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; connect-src 'self' ws: "
+    "blob:; "
     "img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 std::string_view text_of(beast::string_view text) { return {text.data(), text.size()}; }
@@ -78,7 +80,8 @@ class Counted {
 /// An open page.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
-  PageSocket(tcp::socket socket, Shared& shared) : socket_(std::move(socket)), shared_(shared), counted_(shared) {}
+  PageSocket(tcp::socket socket, Shared& shared)
+      : socket_(std::move(socket)), shared_(shared), counted_(shared) {}
   ~PageSocket() {
     if (id_ == 0) return;
     shared_.pages.erase(id_);
@@ -154,7 +157,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 /// A connection whose request is being read and answered.
 class Request : public std::enable_shared_from_this<Request> {
  public:
-  Request(tcp::socket socket, Shared& shared) : stream_(std::move(socket)), shared_(shared), counted_(shared) {}
+  Request(tcp::socket socket, Shared& shared)
+      : stream_(std::move(socket)), shared_(shared), counted_(shared) {}
 
   void start() {
     parser_.header_limit(longest_header);
@@ -220,8 +224,9 @@ class PageServer::Core {
       acceptor_.bind(endpoint);
       acceptor_.listen();
     } catch (const boost::system::system_error& error) {
-      throw std::system_error(error.code().value(), std::system_category(),
-                              fmt::format("cannot listen at {}, port {}", shared_.plan.address, shared_.plan.port));
+      throw std::system_error(
+          error.code().value(), std::system_category(),
+          fmt::format("cannot listen at {}, port {}", shared_.plan.address, shared_.plan.port));
     }
     shared_.address = {shared_.plan.address, acceptor_.local_endpoint().port(), token_};
     accept();

@@ -59,8 +59,8 @@ ReceivedMessage decoded(const std::vector<std::uint8_t>& bytes) {
   return message;
 }
 
-HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::map<std::string, std::string>& headers,
-                    const std::string& method) {
+HttpAnswer http_get(std::uint16_t port, const std::string& target,
+                    const std::map<std::string, std::string>& headers, const std::string& method) {
   asio::io_context context;
   beast::tcp_stream stream(context);
   stream.connect(local(port));
@@ -74,7 +74,8 @@ HttpAnswer http_get(std::uint16_t port, const std::string& target, const std::ma
   parser.body_limit(64U << 20U);
   http::read(stream, buffer, parser);
   HttpAnswer answer{parser.get().result_int(), parser.get().body(), {}};
-  for (const auto& field : parser.get()) answer.headers[std::string(field.name_string())] = std::string(field.value());
+  for (const auto& field : parser.get())
+    answer.headers[std::string(field.name_string())] = std::string(field.value());
   return answer;
 }
 
@@ -88,9 +89,10 @@ PageClient::PageClient(std::uint16_t port, const std::string& target,
                        const std::map<std::string, std::string>& headers)
     : core_(std::make_unique<Core>()) {
   beast::get_lowest_layer(core_->socket).connect(local(port));
-  core_->socket.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
-    for (const auto& [name, value] : headers) request.set(name, value);
-  }));
+  core_->socket.set_option(
+      beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
+        for (const auto& [name, value] : headers) request.set(name, value);
+      }));
   core_->socket.read_message_max(64U << 20U);
   boost::system::error_code error;
   core_->socket.handshake(host_of(port), target, error);

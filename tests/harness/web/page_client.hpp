@@ -33,12 +33,14 @@ struct HttpAnswer {
 
 /// GET with these headers. `method` may be another one.
 HttpAnswer http_get(std::uint16_t port, const std::string& target,
-                    const std::map<std::string, std::string>& headers = {}, const std::string& method = "GET");
+                    const std::map<std::string, std::string>& headers = {},
+                    const std::string& method = "GET");
 
 class PageClient {
  public:
   /// Connects. `target` is path and query. Throws std::runtime_error if the server refuses it.
-  PageClient(std::uint16_t port, const std::string& target, const std::map<std::string, std::string>& headers = {});
+  PageClient(std::uint16_t port, const std::string& target,
+             const std::map<std::string, std::string>& headers = {});
   ~PageClient();
   PageClient(PageClient&&) noexcept;
   PageClient& operator=(PageClient&&) = delete;

@@ -41,7 +41,8 @@ class CountingPages final : public PageHandler {
   bool next(PageId page, PageMessage& message) override {
     if (has_stopped_) return false;
     ++asked_;
-    std::string json = "{\"kind\":\"count\",\"number\":" + std::to_string(counts_[page]++) + ",\"arrays\":[]}";
+    std::string json =
+        "{\"kind\":\"count\",\"number\":" + std::to_string(counts_[page]++) + ",\"arrays\":[]}";
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const auto length = static_cast<std::uint32_t>(json.size());
     message.resize(4);
