@@ -71,7 +71,8 @@ void describe_fault(Fields& fields, Fault& fault) {
   fields.variant("kind", kind, fault_cases(fault), "what goes wrong", Need::required);
   fault.kind = enum_of<FaultKind>(kind_names, kind);
   fields.number("at_s", fault.at, between(0, longest_duration),
-                "when: it comes with the first measurement from then on", Need::required);
+                "when: it comes with the first measurement, or the first step of the physics, from then on",
+                Need::required);
 }
 
 }  // namespace worlds

@@ -32,7 +32,7 @@ inline constexpr double open_end = 1e6;
 /// The time of a fault, and the values that its kind uses.
 struct Fault {
   FaultKind kind = FaultKind::bad_observation;
-  double at = 0.0;                 // [s] it occurs at the first measurement from this time on
+  double at = 0.0;                 // [s] it occurs at the first measurement or physics step from this time on
   BadValue value = BadValue::nan;  // bad_observation: its range
   double size = 0.0;               // [sigma] outlier: error of the bearing, counter-clockwise
   Wheel wheel = Wheel::left;       // encoder_jump
