@@ -105,9 +105,10 @@ class AddingInBullet : public testing::Test {
   std::unique_ptr<Simulator> simulator_ = make_simulator(world_);
 };
 
-// Just in front of a robot that has streamed in its surroundings before.
+// Just in front of a robot that has looked at its surroundings after one metre, and does so again after two.
 TEST_F(AddingInBullet, AWallStopsTheRobotAtOnce) {
-  drive_for(*simulator_, world_, 2.0, {0.5, 0.0});
+  drive_for(*simulator_, world_, 2.5, {0.5, 0.0});
+  ASSERT_NEAR(simulator_->robot().position.x(), 1.1, 0.05);
   const double x = simulator_->robot().position.x() + 0.4;
   simulator_->add_wall(wall_across(x));
   drive_for(*simulator_, world_, 4.0, {0.5, 0.0});
@@ -115,7 +116,7 @@ TEST_F(AddingInBullet, AWallStopsTheRobotAtOnce) {
 }
 
 TEST_F(AddingInBullet, ALandmarkStopsTheRobotAtOnce) {
-  drive_for(*simulator_, world_, 2.0, {0.5, 0.0});
+  drive_for(*simulator_, world_, 2.5, {0.5, 0.0});
   const double x = simulator_->robot().position.x() + 0.5;
   simulator_->add_landmark({{x, 0.0}, 0.1});
   drive_for(*simulator_, world_, 1.0, {0.5, 0.0});
