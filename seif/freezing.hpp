@@ -23,8 +23,8 @@ struct FrozenPiece {
   };
   std::vector<int> slots;       // Z
   std::vector<Member> members;  // m of them: Z first, then the active landmarks that W links it to
-  AlignedNumbers Omega;    // (2m x 2m) V V' among the members, packed (packed_triangle.hpp)
-  AlignedNumbers r;        // (2m) V y with y = L^-1 r_Z: the residual at the reference
+  AlignedNumbers Omega;         // (2m x 2m) V V' among the members, packed (packed_triangle.hpp)
+  AlignedNumbers r;             // (2m) V y with y = L^-1 r_Z: the residual at the reference
 
   Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(members.size()); }  // 2m
   /// Omega_ij of two members.

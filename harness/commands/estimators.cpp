@@ -26,6 +26,7 @@ std::string limits_of(const seif::OptionSpec& option) {
   if (std::isfinite(option.min)) limits.push_back(fmt::format("at least {}", option.min));
   if (std::isfinite(option.max)) limits.push_back(fmt::format("at most {}", option.max));
   if (!option.not_above.empty()) limits.push_back(fmt::format("at most {}", option.not_above));
+  if (option.changeable) limits.emplace_back("can change during a run");
   return fmt::format("{}", fmt::join(limits, ", "));
 }
 

@@ -265,6 +265,7 @@ Gaze Film::gaze_of(const render::Camera& camera, const seif::Pose2& robot) const
 
 void Film::compose(double t, const seif::Pose2& T_since) {
   const worlds::FilmLayers& layers = plan_.world.film.layers;
+  stage_.let_appear(t);
   const seif::Pose2 robot = best_pose(T_since);
   const render::Camera camera = camera_man_.camera(robot, next_frame_ == 0 ? 0.0 : 1.0 / plan_.clock.fps);
   const Gaze gaze = gaze_of(camera, robot);

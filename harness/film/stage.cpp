@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "harness/film/paint.hpp"
@@ -36,6 +37,18 @@ void extend(std::optional<Area>& area, const Vector2d& p) {
   area->max = area->max.cwiseMax(p);
 }
 
+/// What appears in a world during a run, the latest first.
+std::vector<worlds::Fault> things_to_come(const worlds::World& world) {
+  std::vector<worlds::Fault> things;
+  for (const worlds::Fault& fault : world.faults) {
+    if (fault.kind == worlds::FaultKind::ice || fault.kind == worlds::FaultKind::wall ||
+        fault.kind == worlds::FaultKind::landmark)
+      things.push_back(fault);
+  }
+  std::ranges::stable_sort(things, std::ranges::greater{}, &worlds::Fault::at);
+  return things;
+}
+
 /// A part of the robot, given in the robot's frame.
 render::Solid part(const Isometry3d& T_world_robot, const Isometry3d& T_robot_part, render::Shape shape,
                    const Vector3d& size, Rgb colour) {
@@ -56,8 +69,13 @@ Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription&
     posts_.put((*landmarks_)[i].landmark, (*landmarks_)[i].position);
     extend(subject, (*landmarks_)[i].position);
   }
+  if (landmarks_ != nullptr) landmarks_shown_ = landmarks_->size();
   if (knows_world) {
     add_solids(world);
+    to_come_ = things_to_come(world);
+    for (const worlds::Fault& fault : to_come_) {
+      if (fault.kind == worlds::FaultKind::landmark && landmarks_shown_ > 0) --landmarks_shown_;
+    }
     for (const worlds::Wall& wall : world.walls) {
       for (const Vector2d& corner : wall.points) extend(subject, corner);
     }
@@ -80,20 +98,33 @@ Stage::Stage(const worlds::World& world, bool knows_world, const LogDescription&
 }
 
 void Stage::add_solids(const worlds::World& world) {
-  for (const worlds::FrictionPatch& patch : world.physics.patches) {
-    constexpr double thickness = 0.005;  // [m] visible, but too thin for a shadow
-    const Vector2d middle = 0.5 * (patch.min + patch.max);
-    solids_.push_back(
-        upright_box({middle, Vector2d::UnitX(), 0.5 * (patch.max - patch.min)}, thickness, paints::ice));
-  }
+  for (const worlds::FrictionPatch& patch : world.physics.patches) add_patch(patch);
   for (const worlds::Box& box : world.boxes)
     solids_.push_back(upright_box(worlds::rectangle(box), box.height, paints::box));
-  for (const worlds::Wall& wall : world.walls) {
-    for (const worlds::Segment& leg : worlds::legs(wall.points, wall.closed)) {
-      worlds::Rectangle rectangle = worlds::rectangle(leg, wall.thickness);
-      rectangle.half.x() += 0.5 * wall.thickness;  // so that legs meet at their corners
-      solids_.push_back(upright_box(rectangle, wall.height, paints::wall));
-    }
+  for (const worlds::Wall& wall : world.walls) add_wall(wall);
+}
+
+void Stage::add_patch(const worlds::FrictionPatch& patch) {
+  constexpr double thickness = 0.005;  // [m] visible, but too thin for a shadow
+  const Vector2d middle = 0.5 * (patch.min + patch.max);
+  solids_.push_back(
+      upright_box({middle, Vector2d::UnitX(), 0.5 * (patch.max - patch.min)}, thickness, paints::ice));
+}
+
+void Stage::add_wall(const worlds::Wall& wall) {
+  for (const worlds::Segment& leg : worlds::legs(wall.points, wall.closed)) {
+    worlds::Rectangle rectangle = worlds::rectangle(leg, wall.thickness);
+    rectangle.half.x() += 0.5 * wall.thickness;  // so that legs meet at their corners
+    solids_.push_back(upright_box(rectangle, wall.height, paints::wall));
+  }
+}
+
+void Stage::let_appear(double t) {
+  for (; !to_come_.empty() && to_come_.back().at <= t; to_come_.pop_back()) {
+    const worlds::Fault& fault = to_come_.back();
+    if (fault.kind == worlds::FaultKind::ice) add_patch(fault.patch);
+    if (fault.kind == worlds::FaultKind::wall) add_wall(fault.wall);
+    if (fault.kind == worlds::FaultKind::landmark) ++landmarks_shown_;
   }
 }
 
@@ -116,6 +147,7 @@ void Stage::append_surroundings(const Frustum& frustum, const Area& area, render
   if (landmarks_ == nullptr) return;
   posts_.within(area, in_area_);
   for (const seif::LandmarkId id : in_area_) {
+    if (!to_come_.empty() && static_cast<std::size_t>(id) >= landmarks_shown_) continue;
     const Vector2d position = *posts_.position(id);
     if (!frustum.sees({position.x(), position.y(), 0.0}, 2.0 * post_height)) continue;
     render::Post post;

@@ -1,6 +1,7 @@
 // The world in a film: ground, walls, true landmarks, and the robot.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,9 @@ class Stage {
 
   /// A landmark that joins the log's landmarks during the run, or has another id now.
   void put_landmark(const TrueLandmark& landmark) { posts_.put(landmark.landmark, landmark.position); }
+
+  /// What has appeared in the world up to `t` [s] is shown from now on. Times must not decrease.
+  void let_appear(double t);
 
   /// What an overview shows in full. [m]
   const Area& subject() const { return subject_; }
@@ -48,6 +52,8 @@ class Stage {
 
  private:
   void add_solids(const worlds::World& world);
+  void add_patch(const worlds::FrictionPatch& patch);
+  void add_wall(const worlds::Wall& wall);
   double radius(seif::LandmarkId id) const;
 
   worlds::Robot robot_;
@@ -55,6 +61,8 @@ class Stage {
   double reach_;                                          // [m]
   Area subject_;                                          // [m]
   std::vector<render::Solid> solids_;                     // walls and boxes
+  std::vector<worlds::Fault> to_come_;                    // ice, walls and landmarks, the latest first
+  std::size_t landmarks_shown_ = 0;                       // [-] of `landmarks_`: those that are there
   const std::vector<TrueLandmark>* landmarks_ = nullptr;  // sorted by id; null: not known
   PointIndex posts_{4.0};
   std::vector<seif::LandmarkId> in_area_;  // reused

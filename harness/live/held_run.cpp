@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "harness/files/bad_input.hpp"
 
@@ -91,6 +92,8 @@ void HeldRun::silence(worlds::FaultySensor sensor, bool begins) {
   if (!run_->is_simulated()) throw BadInput(is_recorded);
   const double t = intervention_t();
   if (begins == is_silent(sensor)) return;
+  if (!begins && !script_.has_begun_silence(sensor))
+    throw BadInput("the world file itself keeps this sensor silent for now");
   if (begins) {
     run_->simulation().inject(script_.begin_silence(sensor, t));
   } else {

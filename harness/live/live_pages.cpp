@@ -1,7 +1,9 @@
 #include "harness/live/live_pages.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <variant>
 
 #include "harness/files/bad_input.hpp"
 

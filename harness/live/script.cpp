@@ -58,6 +58,16 @@ std::string yaml_of(const worlds::EstimatorChoice& choice) {
   return yaml + '}';
 }
 
+/// In the order of time; a row of the same time is replaced.
+void put(std::vector<worlds::Takeover>& rows, const worlds::Takeover& row) {
+  const auto place = std::ranges::lower_bound(rows, row.t, {}, &worlds::Takeover::t);
+  if (place != rows.end() && place->t == row.t) {
+    *place = row;
+  } else {
+    rows.insert(place, row);
+  }
+}
+
 /// Throws BadInput for an option that the type does not have, and for a value that is not valid.
 void set_option(worlds::EstimatorChoice& choice, const std::string& option, const seif::OptionValue& value,
                 const seif::EstimatorType& type) {
@@ -100,7 +110,7 @@ void Script::rebuild() {
   world_.faults = base_.faults;
   for (const Done& done : faults_) world_.faults.push_back(done.fault);
   world_.drive.takeover = base_.drive.takeover;
-  for (const worlds::Takeover& row : takeover_) world_.drive.takeover.push_back(row);
+  for (const worlds::Takeover& row : takeover_) put(world_.drive.takeover, row);
   world_.estimators = base_.estimators;
   for (const worlds::EstimatorChoice& choice : beside_) world_.estimators.push_back(choice);
 }
@@ -147,6 +157,13 @@ const worlds::Fault& Script::begin_silence(worlds::FaultySensor sensor, double t
   return add_fault(silence_yaml(sensor, t, worlds::open_end));
 }
 
+bool Script::has_begun_silence(worlds::FaultySensor sensor) const {
+  return std::ranges::any_of(faults_, [sensor](const Done& done) {
+    return done.fault.kind == worlds::FaultKind::silence && done.fault.sensor == sensor &&
+           done.fault.duration == worlds::open_end;
+  });
+}
+
 void Script::end_silence(worlds::FaultySensor sensor, double t) {
   for (auto& [yaml, fault] : faults_) {
     if (fault.kind != worlds::FaultKind::silence || fault.sensor != sensor ||
@@ -162,10 +179,9 @@ void Script::end_silence(worlds::FaultySensor sensor, double t) {
 }
 
 void Script::take_over(const worlds::Takeover& row) {
-  if (!takeover_.empty() && takeover_.back().t == row.t) takeover_.pop_back();
   if (takeover_.size() >= most_rows) throw BadInput("a run can have a million commands, and no more");
-  takeover_.push_back(row);
-  rebuild();
+  put(takeover_, row);
+  put(world_.drive.takeover, row);
 }
 
 std::string Script::add_beside(const std::string& estimator, const std::string& option,

@@ -32,6 +32,8 @@ class Script {
   /// Adds a silence that goes on until end_silence(), or ends the one that goes on.
   const worlds::Fault& begin_silence(worlds::FaultySensor sensor, double t);
   void end_silence(worlds::FaultySensor sensor, double t);
+  /// Whether a silence that was begun by hand goes on.
+  bool has_begun_silence(worlds::FaultySensor sensor) const;
   /// Adds a row of commands; one of the same time is replaced.
   void take_over(const worlds::Takeover& row);
   /// Adds a copy of an estimator with another value of an option, and returns its name. It runs from the beginning.

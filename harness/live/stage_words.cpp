@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <string>
+#include <string_view>
+
 #include "harness/live/stage_show.hpp"
 
 namespace harness {

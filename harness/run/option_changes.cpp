@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <variant>
 
 #include "harness/estimators/plugins.hpp"
 #include "seif/make_estimator.hpp"

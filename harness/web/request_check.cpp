@@ -1,9 +1,11 @@
 #include "harness/web/request_check.hpp"
 
 #include <fmt/format.h>
+#include <sys/random.h>
 
+#include <array>
 #include <cstddef>
-#include <random>
+#include <stdexcept>
 
 namespace harness {
 
@@ -44,9 +46,11 @@ bool is_own_host(std::string_view host, const PageAddress& known) {
 bool is_everywhere(std::string_view address) { return address == "0.0.0.0" || address == "::"; }
 
 std::string random_token() {
-  std::random_device device;
+  std::array<unsigned char, 16> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("the system gives no random numbers for the address of the page");
   std::string token;
-  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", device());
+  for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;
 }
 

@@ -36,9 +36,9 @@ struct Condensed {
   std::vector<FrontVariable> eliminated;
   std::vector<Member> boundary;
   std::vector<Tie> tied;
-  int e = 0, b = 0;               // [-] rows of E, of B
-  ArrayPool::Array factor;        // (e + b x e) [L; G'], by column
-  ArrayPool::Array S;             // (b x b) lower triangle, by column
+  int e = 0, b = 0;          // [-] rows of E, of B
+  ArrayPool::Array factor;   // (e + b x e) [L; G'], by column
+  ArrayPool::Array S;        // (b x b) lower triangle, by column
   AlignedNumbers y;          // (e)
   AlignedNumbers s;          // (b) the residual where B is at its reference
   AlignedNumbers reference;  // (b) of B; what its mean has gone since is d_B

@@ -110,10 +110,13 @@ const std::array<Library, 11>& libraries() {
        [](View word) { return word == "YAML"; },
        [](View path) { return is_inside(path, "worlds") && !is_header(path); }},
       {"nlohmann-json", [](View include) { return include.starts_with("nlohmann/"); },
-       [](View word) { return word == "nlohmann"; }, [](View path) { return !is_header(path); }},
+       [](View word) { return word == "nlohmann"; },
+       [](View path) { return !is_header(path) || is_inside(path, "tests"); }},
       {"Boost", [](View include) { return include.starts_with("boost/"); },
        [](View word) { return word == "boost"; },
-       [](View path) { return is_inside(path, "harness") && !is_header(path); }},
+       [](View path) {
+         return (is_inside(path, "harness") || is_inside(path, "tests/harness")) && !is_header(path);
+       }},
       {"Ceres", [](View include) { return include.starts_with("ceres/"); },
        [](View word) { return word == "ceres"; },
        [](View path) { return is_inside(path, "harness") && !is_header(path); }},

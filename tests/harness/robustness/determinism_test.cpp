@@ -84,10 +84,11 @@ TEST_F(Determinism, ThePlaceInMemoryAndTheEnvironmentDoNotMatter) {
 // Eigen sums up in another order where a vector begins elsewhere in a cache line. Without its caches the heap puts most
 // vectors elsewhere; a kilometre into the orchard a last bit used to differ then.
 TEST_F(Determinism, WhereTheHeapPutsThingsDoesNotMatter) {
-  const std::string orchard =
-      std::string("run " SEIFBED_SOURCE_DIR "/worlds/orchard.yaml --duration 160 --set estimators='{seif: {}}' --quiet");
+  const std::string orchard = std::string(
+      "run " SEIFBED_SOURCE_DIR "/worlds/orchard.yaml --duration 160 --set estimators='{seif: {}}' --quiet");
   ASSERT_EQ(call(folder_, orchard + " --out orchard").exit_code, 0);
-  ASSERT_EQ(call(folder_, orchard + " --out elsewhere", "GLIBC_TUNABLES=glibc.malloc.tcache_count=0").exit_code, 0);
+  ASSERT_EQ(
+      call(folder_, orchard + " --out elsewhere", "GLIBC_TUNABLES=glibc.malloc.tcache_count=0").exit_code, 0);
   EXPECT_EQ(trajectory_hash(folder_ / "elsewhere"), trajectory_hash(folder_ / "orchard"));
 }
 
