@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "harness/figures/piped_program.hpp"
+#include "harness/files/script_library.hpp"
 #include "harness/film/frame_sink.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "sim/render/renderer.hpp"
@@ -88,6 +89,11 @@ std::string gnuplot() {
              words_of({"gnuplot"}, "print GPVAL_VERSION, ' patchlevel ', GPVAL_PATCHLEVEL\n", "gnuplot-nox"));
 }
 
+/// The size of a library of JavaScript, for reports and for the live page.
+std::string script(const ScriptLibrary& library) {
+  return fmt::format("{} kB", read_script(library).size() / 1000);
+}
+
 /// Tests an encoder: writes a film in this format.
 std::string encoder(const std::string& extension) {
   constexpr int side = 64;  // [px]
@@ -119,6 +125,8 @@ std::vector<Finding> look_at_machine() {
       found.push_back(finding(name, [&, file = std::string(extension)] { return encoder(file); }));
   }
   found.push_back(finding("gnuplot", gnuplot));
+  found.push_back(finding("Chart.js", [] { return script(chart_js()); }));
+  found.push_back(finding("three.js", [] { return script(three_js()) + ", " + script(orbit_controls()); }));
   return found;
 }
 

@@ -1,6 +1,6 @@
 #include "harness/live/live_run.hpp"
 
-#include <algorithm>
+#include <filesystem>
 #include <utility>
 #include <variant>
 
@@ -76,6 +76,8 @@ void LiveRun::publish(const LiveStatus& status) {
 
 std::string LiveRun::hash_so_far() {
   settle();
+  for (const LiveEstimator& estimator : run_.believers->estimators)
+    std::filesystem::remove(folder_ / (estimator.name + "_map.csv"));  // of an earlier call
   loop_->finish();
   recorder_->scored();  // writes out what is buffered
   return trajectory_hash(folder_.path());

@@ -126,10 +126,36 @@ std::string mistakes_text(const worlds::LandmarkSensor& sensor) {
   return joined_by(parts, ", ");
 }
 
+std::string_view name_of(worlds::FaultKind kind) {
+  switch (kind) {
+    case worlds::FaultKind::bad_observation:
+      return "bad observation";
+    case worlds::FaultKind::outlier:
+      return "outlier";
+    case worlds::FaultKind::encoder_jump:
+      return "encoder jump";
+    case worlds::FaultKind::silence:
+      return "silence";
+    case worlds::FaultKind::kidnapping:
+      return "kidnapping";
+    case worlds::FaultKind::ice:
+      return "ice";
+    case worlds::FaultKind::wall:
+      return "a wall";
+    case worlds::FaultKind::landmark:
+      return "a landmark";
+    case worlds::FaultKind::option:
+      break;
+  }
+  return "another option";
+}
+
 std::string fault_text(const worlds::Fault& fault) {
-  constexpr std::string_view names[] = {"bad observation", "outlier", "encoder jump", "silence",
-                                        "kidnapping"};
-  return fmt::format("{} at {} s", names[static_cast<std::size_t>(fault.kind)], short_number(fault.at));
+  const std::string whose =
+      fault.kind == worlds::FaultKind::option
+          ? fmt::format(" ({}: {} = {})", fault.estimator, fault.option, short_number(fault.option_value))
+          : "";
+  return fmt::format("{}{} at {} s", name_of(fault.kind), whose, short_number(fault.at));
 }
 
 std::string option_text(const worlds::OptionValue& value) {

@@ -55,6 +55,11 @@ std::pair<http::status, const char*> words_of(Answer answer) {
   return {http::status::not_found, "there is only one page here\n"};
 }
 
+}  // namespace
+
+// Named: a member of PageServer::Core has these types.
+namespace page_server {
+
 /// What the connections of a server share.
 struct Shared {
   PageServerPlan plan;
@@ -211,7 +216,7 @@ class Request : public std::enable_shared_from_this<Request> {
   http::response<http::string_body> response_;
 };
 
-}  // namespace
+}  // namespace page_server
 
 class PageServer::Core {
  public:
@@ -255,7 +260,7 @@ class PageServer::Core {
     acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
       if (is_stopping_) return;
       if (!error && shared_.connections < shared_.plan.most_pages)
-        std::make_shared<Request>(std::move(socket), shared_)->start();
+        std::make_shared<page_server::Request>(std::move(socket), shared_)->start();
       if (!error) return accept();
       // Too many open files, for instance: others may close theirs.
       retry_.emplace(context_, std::chrono::milliseconds(100));
@@ -286,7 +291,7 @@ class PageServer::Core {
   }
 
   std::string token_;
-  Shared shared_;
+  page_server::Shared shared_;
   asio::io_context context_;  // destroyed before `shared_`: its pending calls hold pages
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;

@@ -60,8 +60,8 @@ TEST(Doctor, FindsAllWellWhereEverythingIsInstalledInTenSeconds) {
   EXPECT_EQ(json["well"], true);
   for (const char* part : {"physics", "sensing", "estimation", "rendering"})
     EXPECT_EQ(json["self_test"][part]["good"], true) << part;
-  for (const char* part :
-       {"cores", "memory", "OSMesa", "ffmpeg", "H.264 encoder", "VP9 encoder", "GIF encoder", "gnuplot"})
+  for (const char* part : {"cores", "memory", "OSMesa", "ffmpeg", "H.264 encoder", "VP9 encoder",
+                           "GIF encoder", "gnuplot", "Chart.js", "three.js"})
     EXPECT_EQ(json["machine"][part]["good"], true) << part;
   EXPECT_TRUE(std::filesystem::is_empty(folder / "temporary")) << "it leaves something behind";
 }

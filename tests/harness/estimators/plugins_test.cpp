@@ -47,7 +47,7 @@ TEST(Plugins, ThatAreWrongAreRefusedWithAReason) {
   EXPECT_NE(error_of(std::string(SEIFBED_TEST_PLUGINS) + "/CTestTestfile.cmake").find("cannot be loaded"),
             std::string::npos);
   EXPECT_NE(error_of(plugin("without_function")).find("does not export seif_plugin()"), std::string::npos);
-  EXPECT_NE(error_of(plugin("other_interface")).find("is for version 2 of the interface"), std::string::npos);
+  EXPECT_NE(error_of(plugin("other_interface")).find("is for version 3 of the interface"), std::string::npos);
   EXPECT_NE(error_of(plugin("other_alignment")).find("aligns matrices to 128 and"), std::string::npos);
   EXPECT_NE(error_of(plugin("adds_nothing")).find("adds no estimator"), std::string::npos);
   EXPECT_NE(error_of(plugin("throws")).find("the moon is not full"), std::string::npos);

@@ -111,6 +111,13 @@ TEST(LiveCommand, WhatIsDoneInABrowserCanBeRunAgain) {
   const std::string world = test::read_file(folder / "runs/small-live/world.yaml");
   for (const char* what : {"kidnapping", "kind: wall", "theta_x"})
     EXPECT_NE(world.find(what), std::string::npos);
+  // Reports and films show what was done, too.
+  const test::Called report = test::call(folder, "report runs/small-live --out report.html");
+  EXPECT_EQ(report.exit_code, 0) << report.errors;
+  EXPECT_NE(test::read_file(folder / "report.html").find("another option (seif: theta_x = 2)"),
+            std::string::npos);
+  const test::Called still = test::call(folder, "film runs/small-live --at 8 --out still.png --quiet");
+  EXPECT_EQ(still.exit_code, 0) << still.errors;
   EXPECT_EQ(program.stop(), 0);
 }
 

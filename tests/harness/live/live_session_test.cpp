@@ -187,6 +187,19 @@ TEST(LiveSession, TheTimeOfAnUpdateIsNotThatOfItsWatcher) {
   EXPECT_LT(frame.at("estimators").at(0).at("update_us").get<double>(), 250'000.0);
 }
 
+TEST(LiveSession, IsSavedAgainAndAgain) {
+  const TemporaryFolder folder;
+  LiveTestSession session(small_source(folder, 5));
+  std::string last;
+  for (const double t : {1.0, 2.0, 2.5}) {
+    go_past(session, t);
+    const LiveTestSession::Saved saved = session.save();
+    EXPECT_EQ(saved.hash_again, saved.hash);
+    EXPECT_NE(saved.hash, last);
+    last = saved.hash;
+  }
+}
+
 TEST(LiveSession, RunsACopyOfAnEstimatorWithAnotherOptionBesideIt) {
   const TemporaryFolder folder;
   LiveTestSession session(small_source(folder, 4));

@@ -138,7 +138,13 @@ TEST(WorldFacts, SayInWordsWhatTheWorldFileSays) {
   world.landmark_sensor.range_sd_per_m = 0.01;
   world.landmark_sensor.bearing_sd = 2 * worlds::degree;
   world.landmark_sensor.miss_probability = 0.1;
-  world.faults.resize(1);
+  world.faults.resize(3);
+  world.faults[1].kind = worlds::FaultKind::landmark;
+  world.faults[1].at = 14;
+  world.faults[2] = {.kind = worlds::FaultKind::option, .at = 15};
+  world.faults[2].estimator = "seif";
+  world.faults[2].option = "theta_x";
+  world.faults[2].option_value = 4;
   world.faults[0].kind = worlds::FaultKind::kidnapping;
   world.faults[0].at = 12;
   const Description about = describe(world);
@@ -155,7 +161,8 @@ TEST(WorldFacts, SayInWordsWhatTheWorldFileSays) {
   EXPECT_TRUE(fact("Landmark sensor").find("up to 6 m") != std::string::npos) << fact("Landmark sensor");
   EXPECT_EQ(fact("Noise of the sensor"), "0.05 m and 1 % of the range in range, 2 deg in bearing");
   EXPECT_EQ(fact("Mistakes of the sensor"), "misses 10 % of what it could see");
-  EXPECT_EQ(fact("Faults on purpose"), "kidnapping at 12 s");
+  EXPECT_EQ(fact("Faults on purpose"),
+            "kidnapping at 12 s, a landmark at 14 s, another option (seif: theta_x = 4) at 15 s");
 }
 
 TEST(WorldFacts, NameTheOptionsOfEstimators) {
