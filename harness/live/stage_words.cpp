@@ -53,11 +53,12 @@ StageWords sparsification_words(std::string_view type, const StageFacts& facts) 
                                    : "Eqs. (46) to (51)";
   if (facts.removed == 0)
     return {"The robot has no more links than it may have: nothing is dropped.", equation};
-  return {fmt::format(
-              "The robot had too many links. {} removed; what they said goes into the links that stay, so "
-              "that the robot depends on few landmarks again.",
-              facts.removed == 1 ? "One is" : count_of(facts.removed, "link") + " are"),
-          equation};
+  return {
+      fmt::format(
+          "The robot had too many links. {} removed. What they said goes into the links that stay, and into "
+          "links between landmarks ({} new). The robot depends on few landmarks again.",
+          facts.removed == 1 ? "One is" : count_of(facts.removed, "link") + " are", facts.added),
+      equation};
 }
 
 StageWords recovery_words(std::string_view type) {

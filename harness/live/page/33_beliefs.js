@@ -109,7 +109,7 @@ const newLink = new THREE.Color(0x009e73), goneLink = new THREE.Color(0xd55e00);
 function drawActive(belief, i) {
   belief.activeDots.clear();
   belief.activeLines.clear();
-  const stage = state.state === "stage" && state.stage && state.hello.estimators[i].name === state.stage.estimator ? state.stage : null;
+  const stage = state.state === "stage" && state.stage && state.hello.estimators[i].name === state.stage.estimator && state.hello.estimators[i].matrix === "information" ? state.stage : null;
   belief.active.forEach((id) => {
     const mean = meanOf(belief, id);
     if (!mean) return;
