@@ -16,6 +16,7 @@ namespace harness {
 namespace {
 
 constexpr const char* is_recorded = "this is a recorded log: its world cannot be changed";
+constexpr double longest_extension = 1e5;         // [s]
 constexpr std::int64_t moves_between_looks = 64;  // [-] while it is simulated again
 
 }  // namespace
@@ -46,6 +47,8 @@ void HeldRun::tell_setting() {
 
 void HeldRun::rewind_to(double t) {
   begin_anew();
+  if (const double more = t - source_.world.duration; run_->is_simulated() && more > 0.0)
+    run_->simulation().extend(std::min(more, longest_extension));
   const double start = run_->t();
   const double rounding = run_->is_simulated() ? 0.5 * run_->simulation().step_s() : 0.0;
   for (std::int64_t moves = 1; run_->t() < t - rounding; ++moves) {

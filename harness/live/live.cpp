@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "harness/figures/piped_program.hpp"
@@ -36,19 +37,28 @@ PageServerPlan server_plan(const LiveOptions& options, const std::string& title)
 
 bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
 
-/// Opens the user's browser, if this machine has a display. The address is printed anyway.
+/// Opens the user's browser, if this machine has a display. The address is printed anyway. Nobody waits for the
+/// program that opens it: it may last as long as the browser.
 void open_browser(const std::string& url) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  try {
-    PipedProgram browser({"xdg-open", url});
-    static_cast<void>(browser.finish());
-  } catch (const std::exception&) {  // without xdg-open, one opens the address by hand
-  }
+  std::thread([url] {
+    try {
+      PipedProgram browser({"xdg-open", url});
+      static_cast<void>(browser.finish());
+    } catch (const std::exception&) {  // without xdg-open, one opens the address by hand
+    }
+  }).detach();
 }
 
-void tell_address(const PageServer& server, const LiveOptions& options) {
-  print_out(fmt::format("Open {}\n", server.url()));
-  std::fflush(stdout);
+/// What the program is asked for goes to stdout: of a run that is looked at, that is its result.
+void tell_address(const PageServer& server, const LiveOptions& options, bool is_result) {
+  const std::string line = fmt::format("Open {}", server.url());
+  if (is_result) {
+    print_out(line + '\n');
+    std::fflush(stdout);
+  } else {
+    tell(line);
+  }
   if (!is_loopback(options.address))
     tell_warning(
         fmt::format("other machines can reach port {} at {}: who knows the token sees the run and takes "
@@ -70,7 +80,7 @@ void show_live(LiveSource source, const LiveOptions& options) {
                        [&saver](const SaveOrder& order, const Script& script) { saver.save(order, script); }},
                       InterruptGuard::flag());
   const PageServer server(server_plan(options, title), pages);
-  tell_address(server, options);
+  tell_address(server, options, true);
   session.run();
 }
 
@@ -90,7 +100,7 @@ class LiveOnlookers::Core final : public RunListener {
     channels_.outbox.set(std::make_shared<const LiveSetting>(live_setting(subject, world.duration, 1, 1)));
     status_.speed = std::numeric_limits<double>::infinity();
     if (!world.estimators.empty()) status_.watched = world.estimators.front().name;
-    tell_address(server_, options);
+    tell_address(server_, options, false);
   }
 
   void odometry(const OdometryEvent& event) override {

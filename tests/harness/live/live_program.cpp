@@ -17,24 +17,26 @@
 namespace harness::test {
 
 LiveProgram::LiveProgram(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string line = fmt::format("cd {} && exec {} {} > live_out 2> live_errors",
-                                       folder.path().string(), SEIFBED_PROGRAM, arguments);
+  const std::string line =
+      fmt::format("cd {} && exec {} {} > live_out 2>&1", folder.path().string(), SEIFBED_PROGRAM, arguments);
   std::string shell = "/bin/sh", option = "-c", script = line;
   char* words[] = {shell.data(), option.data(), script.data(), nullptr};
   write_file(folder / "live_out", "");
   if (posix_spawn(&process_, shell.c_str(), nullptr, nullptr, words, environ) != 0)
     throw std::runtime_error("cannot start the program");
-  constexpr std::string_view before = "Open ";
+  const std::string before = "Open ";
   for (int i = 0; i < 6000; ++i) {
     const std::string output = read_file(folder / "live_out");
-    if (output.starts_with(before) && output.find('\n') != std::string::npos) {
-      url_ = output.substr(before.size(), output.find('\n') - before.size());
+    const std::size_t begin = output.find(before + "http");
+    const std::size_t end = begin == std::string::npos ? begin : output.find('\n', begin);
+    if (end != std::string::npos) {
+      url_ = output.substr(begin + before.size(), end - begin - before.size());
       return;
     }
     if (!is_running()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  throw std::runtime_error("the program has printed no address: " + read_file(folder / "live_errors"));
+  throw std::runtime_error("the program has printed no address: " + read_file(folder / "live_out"));
 }
 
 LiveProgram::~LiveProgram() {
