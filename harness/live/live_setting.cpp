@@ -101,7 +101,6 @@ Json estimator_json(const LiveSubject& subject, const LiveEstimator& estimator) 
   const auto choice = std::ranges::find(choices, estimator.name, &worlds::EstimatorChoice::name);
   const std::string type = choice == choices.end() ? estimator.name : choice->type;
   json["type"] = type;
-  json["colour"] = css(colour_of_estimator(type));
   if (choice == choices.end()) return json;
   for (const seif::OptionSpec& spec : type_of(subject.registry, *choice).options) {
     const auto value = choice->options.find(spec.key);
@@ -109,6 +108,21 @@ Json estimator_json(const LiveSubject& subject, const LiveEstimator& estimator) 
         option_json_of(spec, value == choice->options.end() ? spec.fallback : value->second));
   }
   return json;
+}
+
+/// An estimator has the colour of its type, and a further one of that type a colour that is still free.
+void give_colours(Json& estimators) {
+  std::vector<std::string> taken;
+  for (Json& estimator : estimators) {
+    std::string colour = css(colour_of_estimator(estimator.at("type").get<std::string>()));
+    for (const Rgb other : {palette::sky_blue, palette::purple, palette::vermilion, palette::yellow,
+                            palette::blue, palette::green}) {
+      if (std::ranges::find(taken, colour) == taken.end()) break;
+      colour = css(other);
+    }
+    estimator["colour"] = colour;
+    taken.push_back(colour);
+  }
 }
 
 Json colours_json() {
@@ -173,6 +187,7 @@ std::string hello_json(const LiveSubject& subject, const Stage& stage, std::uint
                {"why_not", can.why_not}};
   for (const LiveEstimator& estimator : subject.believers.estimators)
     json["estimators"].push_back(estimator_json(subject, estimator));
+  give_colours(json["estimators"]);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -208,6 +208,7 @@ TEST(LiveSession, RunsACopyOfAnEstimatorWithAnotherOptionBesideIt) {
   const json hello = session.wait_for("hello", [](const json& h) { return h.at("epoch") == 2; }).json;
   ASSERT_EQ(hello.at("estimators").size(), 3U);
   EXPECT_EQ(hello.at("estimators").at(2).at("name"), "seif_mean_recovery");
+  EXPECT_NE(hello.at("estimators").at(2).at("colour"), hello.at("estimators").at(0).at("colour"));
   const json frame = session.wait_for("frame", [](const json& f) { return f.at("state") == "paused"; }).json;
   EXPECT_NEAR(frame.at("t").get<double>(), 3.0, 1e-6);
   const LiveTestSession::Saved saved = session.save();
