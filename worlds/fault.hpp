@@ -39,14 +39,14 @@ struct Fault {
   double jump = 0.0;               // [rad] encoder_jump: of the angle that is read
   FaultySensor sensor = FaultySensor::landmark_sensor;  // silence
   double duration = 0.0;                                // [s] silence
-  Placement to;                                         // kidnapping: T_world_robot
-  FrictionPatch patch;                                  // ice
-  Wall wall;                                            // wall
+  Placement to = {};                                    // kidnapping: T_world_robot
+  FrictionPatch patch = {};                             // ice
+  Wall wall = {};                                       // wall
   /// landmark: its id is the next free one: those of the world come first, then these in the order of time
-  Landmark landmark;
-  std::string estimator;      // option: the name of the estimator
-  std::string option;         // option: its key, or a factor of the noise that the estimator assumes
-  double option_value = 0.0;  // option: the new value
+  Landmark landmark = {};
+  std::string estimator = {};  // option: the name of the estimator
+  std::string option = {};     // option: its key, or a factor of the noise that the estimator assumes
+  double option_value = 0.0;   // option: the new value
 };
 
 }  // namespace worlds

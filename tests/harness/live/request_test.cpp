@@ -14,9 +14,9 @@ namespace harness {
 
 namespace {
 
-std::string complaint(const std::string& json) {
+std::string complaint(const std::string& text) {
   try {
-    static_cast<void>(read_request(json));
+    static_cast<void>(read_request(text));
   } catch (const BadInput& error) {
     return error.what();
   }
