@@ -21,6 +21,22 @@ std::size_t FirstEstimates::fitting(const Pose2& framed, const Pose2& mean) cons
   }));
 }
 
+/// From the landmarks as they lie about the first of them: where most of them fit, pose_among() has the best turn.
+void FirstEstimates::put_pose(const Pose2& at) {
+  if (active_.empty()) return;
+  Pose2 best = at;
+  std::size_t most = 0;
+  for (const FirstEstimate& landmark : active_) {
+    const Eigen::Vector2d by = landmark.first - landmark.mean;
+    const Pose2 carried{at.x + by.x(), at.y + by.y(), at.theta};
+    const std::size_t fit = fitting(carried, at);
+    if (fit <= most) continue;
+    most = fit;
+    best = carried;
+  }
+  pose_ = pose_among(active_, at, best, sighting_sd_).pose;
+}
+
 /// The scan may have moved the pose among the landmarks, or the landmarks with the pose.
 Eigen::Vector2d FirstEstimates::follow_pose(const Pose2& before, const Pose2& after) {
   const Pose2 from = pose_;

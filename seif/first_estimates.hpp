@@ -73,6 +73,13 @@ class FirstEstimates {
     return follow_pose(before, after);
   }
 
+  /// The robot is put at `at`, among landmarks that are all of one frame.
+  template <class ForEachActive>
+  void put_pose(const Pose2& at, const ForEachActive& for_each_active) {
+    gather(for_each_active);
+    put_pose(at);
+  }
+
   std::size_t memory_bytes() const { return points_.memory_bytes(); }
 
  private:
@@ -85,6 +92,7 @@ class FirstEstimates {
   }
   Eigen::Vector2d move_pose(const Pose2& before, const Pose2& after);
   Eigen::Vector2d follow_pose(const Pose2& before, const Pose2& after);
+  void put_pose(const Pose2& at);
   /// How many active landmarks fit to a pose in the frame of the first estimates, with the pose's mean at
   /// `mean`.
   std::size_t fitting(const Pose2& framed, const Pose2& mean) const;

@@ -96,6 +96,11 @@ void follow_pose(InformationState& state, const Pose2& before) {
   change_turn(state, 0, state.first_estimates().follow_pose(before, state.pose(), active_means(state)));
 }
 
+void put_robot(InformationState& state, const Pose2& at) {
+  state.set_pose(at);
+  if (state.first_estimates().in_use()) state.first_estimates().put_pose(at, active_means(state));
+}
+
 void carry_first_estimates(InformationState& state, const Turning& turning, MovedBoundary& moved) {
   FirstEstimates& firsts = state.first_estimates();
   const Pose2 from = firsts.pose();

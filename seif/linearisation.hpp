@@ -33,6 +33,9 @@ Eigen::Vector2d move_to_prediction(InformationState& state, const Pose2& predict
 /// Does nothing where landmarks of another frame are in view.
 void follow_pose(InformationState& state, const Pose2& before);
 
+/// The robot, of which nothing is known, is put at `at`. Levers are computed from there.
+void put_robot(InformationState& state, const Pose2& at);
+
 /// All first estimates of the window become the means, with Omega and r turned and moved as they are. `moved`: scratch.
 void carry_first_estimates(InformationState& state, const Turning& turning, MovedBoundary& moved);
 

@@ -14,9 +14,9 @@
 #include "seif/linearisation_noise.hpp"
 #include "seif/marginals.hpp"
 #include "seif/measurement_steps.hpp"
+#include "seif/relocation.hpp"
 #include "seif/sparsification.hpp"
 #include "seif/start_points.hpp"
-#include "seif/tree/tree_belief.hpp"
 #include "seif/tree/tree_mean.hpp"
 
 namespace seif {
@@ -66,7 +66,7 @@ void Seif::make_keeper(const Pose2& start) {
       state_.keep_frozen_apart();
       auto keeper = std::make_unique<TreeMean>(options_.tree, start);
       tree_ = &keeper->tree();
-      belief_ = std::make_unique<TreeBelief>(state_, *tree_, T_robot_sensor_, equal_slots_);
+      belief_ = std::make_unique<TreeBelief>(state_, *tree_, T_robot_sensor_, asked_);
       keeper_ = std::move(keeper);
       return;
     }
@@ -95,6 +95,7 @@ void Seif::measurement_update(const Scan& scan, const StageDone& done) {
   if (!keeper_->before_information(state_)) throw NumericalFailure("mean recovery", scan.t);
 
   join_equal(scan.t);
+  relocate(scan.t);
   linearise_known(state_, scan, T_robot_sensor_, options_.closing_gate, factors_);  // eqs. (15), (23)
   allow_for_curvature(scan);
   if (options_.gate > 0.0 || options_.robust_above > 0.0) check_innovations(scan.t);
@@ -130,9 +131,16 @@ void Seif::activate_known(const Scan& scan) {
     if (const auto slot = state_.find(observation.landmark)) seen_.push_back(*slot);
   }
   if (sighting_sd > 0.0) state_.first_estimates().note_sighting_sd(sighting_sd);
-  for (const auto& [a, b] : equal_slots_) {
-    for (const int slot : {a, b}) {
-      if (std::ranges::find(seen_, slot) == seen_.end()) seen_.push_back(slot);
+  const auto see = [&](int slot) {
+    if (std::ranges::find(seen_, slot) == seen_.end()) seen_.push_back(slot);
+  };
+  for (const auto& [a, b] : asked_.equal_slots) {
+    see(a);
+    see(b);
+  }
+  if (asked_.relocation) {
+    for (const LandmarkId id : asked_.relocation->surroundings.landmarks) {
+      if (const auto slot = state_.find(id)) see(*slot);
     }
   }
   if (!keeper_->activate(state_, seen_, range)) throw NumericalFailure("activation", scan.t);
@@ -142,10 +150,45 @@ void Seif::activate_known(const Scan& scan) {
 /// Called before the scan is taken in, so that the step of the mean does not count as an innovation of the
 /// scan.
 void Seif::join_equal(double t) {
-  if (equal_slots_.empty()) return;
-  add_equal(state_, equal_slots_);
-  equal_slots_.clear();
+  if (asked_.equal_slots.empty()) return;
+  add_equal(state_, asked_.equal_slots);
+  asked_.equal_slots.clear();
   solve_window(t);
+}
+
+/// The robot is put where its surroundings say, and those that are new join the map.
+void Seif::relocate(double t) {
+  if (!asked_.relocation) return;
+  const Relocation& to = *asked_.relocation;
+  if (!to.keeps_pose) {
+    forget_pose(to.surroundings, t);
+    put_robot(state_, to.T_world_robot);
+  }
+  for (std::size_t i = 0; i < to.surroundings.size(); ++i) {
+    const LandmarkId id = to.surroundings.landmarks[i];
+    if (state_.find(id)) continue;
+    const int slot = state_.add_landmark(id, to.T_world_robot * to.surroundings.at(i));
+    keeper_->join(state_, slot);
+    state_.mark_seen(slot);
+  }
+  add_surroundings(state_, to);
+  asked_.relocation.reset();
+  ++relocations_;
+  solve_window(t);
+}
+
+/// The landmarks of the old place are frozen, since nothing links them to the robot any more.
+void Seif::forget_pose(const Surroundings& surroundings, double t) {
+  if (!forget_robot(state_)) throw NumericalFailure("relocation", t);
+  to_drop_.clear();
+  for (int position = 0; position < state_.active_count(); ++position) {
+    const int slot = state_.active(position);
+    if (std::ranges::find(surroundings.landmarks, state_.id(slot)) == surroundings.landmarks.end())
+      to_drop_.push_back(slot);
+  }
+  if (to_drop_.empty()) return;
+  if (!freeze(state_, to_drop_, frozen_) || !keeper_->freeze(state_, frozen_))
+    throw NumericalFailure("relocation", t);
 }
 
 /// Computes the noise of the linearisation if a rough guess says that it may matter. So the usual update pays
@@ -406,6 +449,7 @@ bool Seif::change_option(std::string_view option, double value) {
 
 Counts Seif::counts() const {
   return without_start_points(state_, {.blocks_touched = state_.blocks_touched() + keeper_->blocks_touched(),
+                                       .relocations = relocations_,
                                        .gated = gated_,
                                        .weakened = weakened_,
                                        .active_landmarks = state_.active_count(),

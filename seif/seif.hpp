@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "seif/association/local_belief.hpp"
@@ -22,6 +21,7 @@
 #include "seif/observation_factor.hpp"
 #include "seif/start_frame.hpp"
 #include "seif/tree/condensation_tree.hpp"
+#include "seif/tree/tree_belief.hpp"
 
 namespace seif {
 
@@ -95,6 +95,8 @@ class Seif final : public InformationFilter {
   Eigen::SparseMatrix<double> whole_information() const;
   void activate_known(const Scan& scan);
   void join_equal(double t);
+  void relocate(double t);
+  void forget_pose(const Surroundings& surroundings, double t);
   void allow_for_curvature(const Scan& scan);
   double noise_factor() const;
   double heading_variance(double t);
@@ -113,9 +115,10 @@ class Seif final : public InformationFilter {
   StartFrame start_;
   std::unique_ptr<MeanKeeper> keeper_;
   CondensationTree* tree_ = nullptr;  // of the keeper, if it has one
+  AskedOfFilter asked_;  // by belief_
   std::unique_ptr<LocalBelief> belief_;
   double anchoring_ = 0.0;  // [nat]
-  std::int64_t gated_ = 0, weakened_ = 0;
+  std::int64_t gated_ = 0, weakened_ = 0, relocations_ = 0;
   std::optional<double> innovation_;                      // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;                            // [-]
   bool factor_is_current_ = false;                        // of the window: nothing has moved since the scan
@@ -125,7 +128,6 @@ class Seif final : public InformationFilter {
   std::vector<ObservationFactor> factors_, again_;            // of the latest scan
   FrozenPiece frozen_;                                        // by the latest sparsification
   std::vector<int> seen_, to_drop_;                           // slots; kept so that no update allocates
-  std::vector<std::pair<int, int>> equal_slots_;
 };
 
 }  // namespace seif

@@ -11,6 +11,7 @@
 #include "seif/option_table.hpp"
 #include "seif/plain_seif.hpp"
 #include "seif/registry.hpp"
+#include "seif/relocating/relocating_filter.hpp"
 #include "seif/seif.hpp"
 
 namespace seif {
@@ -68,6 +69,7 @@ enum class Association { known, nearest, joint };
 struct AssociationChoice {
   Association how = Association::known;
   AssociationOptions options;
+  bool relocates = true;
 };
 
 const OptionTable<AssociationChoice>& association_table() {
@@ -101,7 +103,11 @@ const OptionTable<AssociationChoice>& association_table() {
           .number(
               "remove_below", [](Choice& c) -> double& { return c.options.remove_below; }, {0.0, 1.0},
               "With an association: removes a landmark that was seen in less than this share of the scans "
-              "that should have seen it; 0: never [-].");
+              "that should have seen it; 0: never [-].")
+          .choice(
+              "relocate", [](Choice& c) -> bool& { return c.relocates; },
+              OptionChoices<bool>{{"when_lost", true}, {"never", false}},
+              "Whether a filter that has lost its place looks for it in its map, and goes on from there.");
   return table;
 }
 
@@ -111,13 +117,20 @@ std::vector<OptionSpec> with_association(std::vector<OptionSpec> specs) {
   return specs;
 }
 
-/// Adds data association to a filter. Returns the filter itself if associations are known.
-std::unique_ptr<Estimator> associating(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
-                                       const Options& options) {
+/// Adds to a filter what its options ask for: data association, and finding back.
+template <class Filter, class Struct>
+std::unique_ptr<Estimator> completed(const EstimatorSetup& setup, const Struct& filter_options,
+                                     const Options& options) {
   AssociationChoice choice = association_table().read(options);
-  if (choice.how == Association::known) return filter;
   choice.options.jointly = choice.how == Association::joint;
-  return std::make_unique<AssociatingFilter>(std::move(filter), setup, choice.options);
+  auto filter = std::make_unique<Filter>(setup, filter_options);
+  if (choice.how != Association::known)
+    return std::make_unique<AssociatingFilter>(std::move(filter), setup, choice.options);
+  if (!choice.relocates || filter->local_belief() == nullptr) return filter;
+  const auto make_local = [filter_options](const EstimatorSetup& local) {
+    return std::make_unique<Filter>(local, filter_options);
+  };
+  return std::make_unique<RelocatingFilter>(std::move(filter), make_local, setup);
 }
 
 /// An estimator whose filter is made from an options struct alone.
@@ -138,7 +151,7 @@ EstimatorType associating_type_of(std::string name, std::string help, const Opti
           .help = std::move(help),
           .options = with_association(table.specs()),
           .make = [table](const EstimatorSetup& setup, const Options& options) {
-            return associating(std::make_unique<Filter>(setup, table.read(options)), setup, options);
+            return completed<Filter>(setup, table.read(options), options);
           }};
 }
 

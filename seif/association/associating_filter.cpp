@@ -39,7 +39,7 @@ LocalBelief& belief_of(Estimator& filter) {
 
 AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
                                      const AssociationOptions& options)
-    : filter_(std::move(filter)),
+    : FilterAround(std::move(filter)),
       belief_(belief_of(*filter_)),
       T_robot_sensor_(setup.T_robot_sensor),
       options_(options),

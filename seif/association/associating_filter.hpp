@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "seif/association/filter_around.hpp"
 #include "seif/association/landmark_grid.hpp"
 #include "seif/association/local_belief.hpp"
 #include "seif/association/tentative_landmarks.hpp"
@@ -37,7 +38,7 @@ struct AssociationOptions {
 
 /// Names are 0, 1, 2, .. in the order in which landmarks join. Removed and merged landmarks stay in the filter's
 /// belief, but not in its map, and are never observed again.
-class AssociatingFilter final : public Estimator {
+class AssociatingFilter final : public FilterAround {
  public:
   /// Throws std::invalid_argument if the filter has no local belief.
   AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
@@ -47,27 +48,12 @@ class AssociatingFilter final : public Estimator {
   void measurement_update(const Scan& scan, const StageDone& done) override;
   bool needs_names() const override { return false; }
   std::span<const LandmarkId> associations() const override { return names_; }
-  Pose2 pose() const override { return filter_->pose(); }
-  std::optional<Eigen::Matrix3d> pose_covariance() const override { return filter_->pose_covariance(); }
   Counts counts() const override;
   std::size_t memory_bytes() const override;
   void landmarks(std::span<const LandmarkId> landmarks, std::vector<LandmarkEstimate>& out) const override;
-  BeliefMatrix belief_matrix() const override { return filter_->belief_matrix(); }
   void couplings(LandmarkId of, std::vector<Coupling>& out) const override;
   Eigen::MatrixXd whole_belief_matrix() const override;
   std::vector<LandmarkEstimate> map() const override;
-  std::optional<MarginalCovariances> marginal_covariances(
-      std::span<const LandmarkId> landmarks) const override {
-    return filter_->marginal_covariances(landmarks);
-  }
-  std::optional<std::vector<Eigen::MatrixXd>> joint_covariances(
-      std::span<const LandmarkIds> groups) const override {
-    return filter_->joint_covariances(groups);
-  }
-  /// Those of the filter.
-  bool change_option(std::string_view option, double value) override {
-    return filter_->change_option(option, value);
-  }
 
  private:
   struct Landmark {
@@ -109,7 +95,6 @@ class AssociatingFilter final : public Estimator {
   void retire(LandmarkId id);
   void widen_view(const Scan& scan);
 
-  std::unique_ptr<Estimator> filter_;
   LocalBelief& belief_;  // of filter_
   Pose2 T_robot_sensor_;
   AssociationOptions options_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seif/association/association.hpp"
+#include "seif/relocating/surroundings.hpp"
 #include "seif/types.hpp"
 
 namespace seif {
@@ -39,6 +40,14 @@ class LocalBelief {
   /// These two are one landmark: the filter joins them with the next scan, if both are at hand then. From
   /// then on only one of them may be observed.
   virtual void equate(LandmarkId a, LandmarkId b) = 0;
+
+  /// Has these landmarks at hand at once, at the cost of a whole plan for the next zone. False if a matrix is not
+  /// positive definite.
+  [[nodiscard]] virtual bool bring(std::span<const LandmarkId> /*landmarks*/) { return true; }
+
+  /// The filter puts the robot there with the next scan, in place of what it would do otherwise. The known landmarks of
+  /// the relocation are at hand.
+  virtual void relocate(const Relocation& relocation) = 0;
 };
 
 /// The standard deviation with which two landmarks that are one are held together: an information filter

@@ -2,12 +2,16 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "seif/couplings.hpp"
 #include "seif/marginals.hpp"
@@ -44,6 +48,7 @@ void Ekf::motion_update(const Odometry& odometry) {
 
 void Ekf::measurement_update(const Scan& scan, const StageDone& done) {
   if (!update_equal()) throw NumericalFailure("merging", scan.t);
+  if (relocation_ && !update_relocation()) throw NumericalFailure("relocation", scan.t);
   pending_.clear();
   innovation_ = 0.0;
   innovation_degrees_ = 0;
@@ -179,6 +184,79 @@ bool Ekf::update_equal() {
   return true;
 }
 
+/// The surroundings as one observation z = h(x, m) of covariance C. Of the unknowns f nothing is known beforehand: the
+/// pose, unless it is kept, and the landmarks that are new. With S = J Sigma J' + C = L L' of the others and
+/// L^-1 J_f = [Q_1 Q_2] [R; 0]:
+///   mu += W Q_2 Q_2' L^-1 v and Sigma -= W Q_2 Q_2' W', with W = Sigma J' L^-T, for the others;
+///   f += G L^-1 v with G = R^-1 Q_1', of covariance R^-1 R^-T, and -G W' with the others.
+/// That is the limit of an EKF whose prior of f becomes infinitely wide.
+bool Ekf::update_relocation() {
+  const Relocation to = *std::exchange(relocation_, std::nullopt);
+  const auto k = static_cast<int>(to.surroundings.size());
+  const int known_size = size();
+  if (!to.keeps_pose) {
+    set_pose(to.T_world_robot);
+    Sigma_.topLeftCorner(known_size, 3).setZero();
+  }
+  for (std::size_t i = 0; i < to.surroundings.size(); ++i) {
+    if (!index_.find(to.surroundings.landmarks[i]))
+      append(to.surroundings.landmarks[i], to.T_world_robot * to.surroundings.at(i));
+  }
+  const int n = size();
+  Sigma_.block(known_size, 0, n - known_size, n).setZero();
+  const int flat_pose = to.keeps_pose ? 0 : 3;
+  std::vector<int> flat(static_cast<std::size_t>(flat_pose + n - known_size));
+  std::iota(flat.begin(), flat.begin() + flat_pose, 0);
+  std::iota(flat.begin() + flat_pose, flat.end(), known_size);
+
+  Eigen::MatrixXd W(n, 2 * k);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * k, n);
+  Eigen::VectorXd v(2 * k);
+  gather_columns<3>(0, 0);
+  for (int i = 0; i < k; ++i) {
+    const auto number = static_cast<std::size_t>(i);
+    const int row = row_of(index_.find(to.surroundings.landmarks[number]).value());
+    const ExpectedPlace expected = expect_place(pose(), mu_.segment<2>(row));
+    gather_columns<2>(row, 3);
+    J.block<2, 3>(2 * i, 0) = expected.J_x;
+    J.block<2, 2>(2 * i, row) = expected.J_m;
+    W.middleCols<2>(2 * i) = columns_.topRows(n).leftCols<3>() * expected.J_x.transpose() +
+                             columns_.topRows(n).rightCols<2>() * expected.J_m.transpose();
+    v.segment<2>(2 * i) = to.surroundings.at(number) - expected.p_robot;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> S(J * W + to.surroundings.covariance);
+  if (S.info() != Eigen::Success) return false;
+  S.matrixL().solveInPlace(v);
+  S.matrixU().solveInPlace<Eigen::OnTheRight>(W);
+  Eigen::MatrixXd J_f = J(Eigen::all, flat);
+  S.matrixL().solveInPlace(J_f);
+  const auto f = J_f.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J_f);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  const Eigen::MatrixXd R = qr.matrixQR().topRows(f).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd G = R.triangularView<Eigen::Upper>().solve(Q.leftCols(f).transpose());
+  const Eigen::MatrixXd G_W = G * W.transpose();  // (f x n)
+
+  const Eigen::MatrixXd W_rest = W * Q.rightCols(2 * k - f);
+  mu_.head(n) += W_rest * (Q.rightCols(2 * k - f).transpose() * v);
+  downdate_(Sigma_, W_rest);
+  const Eigen::VectorXd step = G * v;
+  const Eigen::MatrixXd P = G * G.transpose();
+  for (Eigen::Index a = 0; a < f; ++a) {
+    const int row = flat[static_cast<std::size_t>(a)];
+    mu_(row) += step(a);
+    for (int j = 0; j < n; ++j) Sigma_(std::max(row, j), std::min(row, j)) = -G_W(a, j);
+  }
+  for (Eigen::Index a = 0; a < f; ++a) {
+    for (Eigen::Index b = 0; b <= a; ++b)
+      Sigma_(flat[static_cast<std::size_t>(a)], flat[static_cast<std::size_t>(b)]) = P(a, b);
+  }
+  mu_(2) = wrap_angle(mu_(2));
+  blocks_touched_ += std::int64_t{landmark_count() + 1} * (landmark_count() + 2) / 2;
+  ++relocations_;
+  return true;
+}
+
 void Ekf::equate(LandmarkId a, LandmarkId b) { equal_.emplace_back(a, b); }
 
 Eigen::Vector2d Ekf::mean_of(LandmarkId landmark) const {
@@ -221,10 +299,17 @@ void Ekf::add_landmark(const Observation& observation) {
   Sigma_.block<2, 2>(row, row) =
       inverse.J_wrt_pose * columns_.topLeftCorner<3, 3>() * inverse.J_wrt_pose.transpose() +
       inverse.J_wrt_observation * observation.covariance * inverse.J_wrt_observation.transpose();
-  mu_.segment<2>(row) = inverse.p_world_landmark;
-  ids_.push_back(observation.landmark);
-  index_.insert(observation.landmark, slot);
+  append(observation.landmark, inverse.p_world_landmark);
   blocks_touched_ += slot + 2;
+}
+
+/// Its rows of Sigma are the caller's.
+void Ekf::append(LandmarkId landmark, const Eigen::Vector2d& mean) {
+  const int slot = landmark_count();
+  reserve(slot + 1);
+  mu_.segment<2>(row_of(slot)) = mean;
+  ids_.push_back(landmark);
+  index_.insert(landmark, slot);
 }
 
 void Ekf::reserve(int landmarks) {
@@ -246,6 +331,7 @@ bool Ekf::change_option(std::string_view option, double value) {
 Counts Ekf::counts() const {
   const std::int64_t n = landmark_count();
   return {.blocks_touched = blocks_touched_,
+          .relocations = relocations_,
           .gated = gated_,
           .weakened = weakened_,
           .active_landmarks = landmark_count(),

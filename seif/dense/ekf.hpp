@@ -58,6 +58,7 @@ class Ekf final : public Estimator, public LocalBelief {
   ExpectedObservation expect(LandmarkId landmark, const Observation& observation) const override;
   void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
   void equate(LandmarkId a, LandmarkId b) override;
+  void relocate(const Relocation& relocation) override { relocation_ = relocation; }
 
   /// The whole belief, for tests: (3+2N x 1) and (3+2N x 3+2N), landmarks in the order of their slots.
   Eigen::VectorXd mu() const { return mu_.head(size()); }
@@ -83,6 +84,8 @@ class Ekf final : public Estimator, public LocalBelief {
   [[nodiscard]] bool update_known();
   [[nodiscard]] bool apply_gain(int observed);
   [[nodiscard]] bool update_equal();
+  [[nodiscard]] bool update_relocation();
+  void append(LandmarkId landmark, const Eigen::Vector2d& mean);
   void add_landmark(const Observation& observation);
   void reserve(int landmarks);
 
@@ -95,13 +98,14 @@ class Ekf final : public Estimator, public LocalBelief {
   SymmetricDowndate downdate_;
   std::vector<Linearised> known_;
   std::vector<std::pair<LandmarkId, LandmarkId>> equal_;
+  std::optional<Relocation> relocation_;
   std::vector<const Observation*> pending_;
   std::vector<const Observation*> unknown_;
   std::vector<LandmarkId> ids_;  // by slot
   LandmarkIndex index_;
   Pose2 T_robot_sensor_;
   EkfOptions options_;
-  std::int64_t gated_ = 0, weakened_ = 0;
+  std::int64_t gated_ = 0, weakened_ = 0, relocations_ = 0;
   double innovation_ = 0.0;     // [-] v' S^-1 v of the latest scan
   int innovation_degrees_ = 0;  // [-]
   std::int64_t blocks_touched_ = 0;

@@ -195,6 +195,14 @@ bool CondensationTree::solve_all(InformationState& state) {
   return done;
 }
 
+bool CondensationTree::bring(InformationState& state, std::span<const int> slots) {
+  if (std::ranges::all_of(slots, [&](int slot) { return is_ready(slot); })) return true;
+  if (!finish_plan(state)) return false;
+  for (const int slot : slots) choice_.want(slot);
+  if (choice_.choose(state, slots, zone_.size(), plan_.hot_leaves)) begin_plan(state, false);
+  return finish_plan(state);
+}
+
 /// Of those that this update may touch; more when the robot would arrive before the next zone is ready, and when a
 /// closure has bent the zone. [-]
 std::int64_t CondensationTree::blocks_left(const InformationState& state) const {

@@ -96,6 +96,9 @@ class CondensationTree {
     window_.covariance(state, slots, out);
   }
 
+  /// Moves the zone at once so that it holds these landmarks, if it does not.
+  [[nodiscard]] bool bring(InformationState& state, std::span<const int> slots);
+
   /// Asks that the next zone hold this landmark.
   void want(int slot) { choice_.want(slot); }
 

@@ -43,6 +43,14 @@ void TreeBelief::want(std::span<const LandmarkId> landmarks) {
   for (const LandmarkId landmark : landmarks) tree_.want(slot_of(landmark));
 }
 
-void TreeBelief::equate(LandmarkId a, LandmarkId b) { equal_slots_.emplace_back(slot_of(a), slot_of(b)); }
+void TreeBelief::equate(LandmarkId a, LandmarkId b) {
+  asked_of_filter_.equal_slots.emplace_back(slot_of(a), slot_of(b));
+}
+
+bool TreeBelief::bring(std::span<const LandmarkId> landmarks) {
+  asked_.clear();
+  for (const LandmarkId landmark : landmarks) asked_.push_back(slot_of(landmark));
+  return tree_.bring(state_, asked_) && tree_.solve_window(state_);
+}
 
 }  // namespace seif

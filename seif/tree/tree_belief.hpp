@@ -1,6 +1,7 @@
 // The belief over the landmarks of the tree's zone, for data association.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,13 +12,18 @@
 
 namespace seif {
 
+/// What the filter does with the next scan.
+struct AskedOfFilter {
+  std::vector<std::pair<int, int>> equal_slots;  // pairs that are one landmark
+  std::optional<Relocation> relocation;
+};
+
 /// The landmarks of the zone are at hand. Holds references to parts of the filter that owns it.
 class TreeBelief final : public LocalBelief {
  public:
-  /// `equal_slots` collects the pairs of equate() for the filter.
-  TreeBelief(InformationState& state, CondensationTree& tree, const Pose2& T_robot_sensor,
-             std::vector<std::pair<int, int>>& equal_slots)
-      : state_(state), tree_(tree), T_robot_sensor_(T_robot_sensor), equal_slots_(equal_slots) {}
+  /// `asked` collects what equate() and relocate() ask of the filter.
+  TreeBelief(InformationState& state, CondensationTree& tree, const Pose2& T_robot_sensor, AskedOfFilter& asked)
+      : state_(state), tree_(tree), T_robot_sensor_(T_robot_sensor), asked_of_filter_(asked) {}
 
   void begin_association(double t) override;
   void landmarks_at_hand(std::vector<LandmarkId>& out) const override;
@@ -27,6 +33,8 @@ class TreeBelief final : public LocalBelief {
   void covariance_with(std::span<const LandmarkId> landmarks, Eigen::Ref<Eigen::MatrixXd> out) const override;
   void want(std::span<const LandmarkId> landmarks) override;
   void equate(LandmarkId a, LandmarkId b) override;
+  [[nodiscard]] bool bring(std::span<const LandmarkId> landmarks) override;
+  void relocate(const Relocation& relocation) override { asked_of_filter_.relocation = relocation; }
 
  private:
   int slot_of(LandmarkId landmark) const { return state_.find(landmark).value(); }
@@ -34,7 +42,7 @@ class TreeBelief final : public LocalBelief {
   InformationState& state_;
   CondensationTree& tree_;
   const Pose2 T_robot_sensor_;
-  std::vector<std::pair<int, int>>& equal_slots_;
+  AskedOfFilter& asked_of_filter_;
   mutable std::vector<int> asked_;  // slots; kept so that no update allocates
 };
 

@@ -1,0 +1,55 @@
+#include "seif/relocating/local_map.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "seif/association/local_belief.hpp"
+
+namespace seif {
+namespace {
+
+constexpr double start_sd = 1e-3;  // [m, rad]; moves the map as a whole, which nobody sees
+
+}  // namespace
+
+void LocalMap::begin() {
+  EstimatorSetup setup;
+  setup.start.covariance = start_sd * start_sd * Eigen::Matrix3d::Identity();
+  setup.T_robot_sensor = T_robot_sensor_;
+  filter_ = make_filter_(setup);
+  scans_ = 0;
+}
+
+void LocalMap::measurement_update(const Scan& scan) {
+  filter_->measurement_update(scan, [](Stage) {});
+  if (!scan.observations.empty()) ++scans_;
+}
+
+void LocalMap::read(double t, std::size_t most, Surroundings& out) {
+  LocalBelief& belief = *filter_->local_belief();
+  belief.begin_association(t);
+  std::vector<LandmarkId>& ids = out.landmarks;
+  belief.landmarks_at_hand(ids);
+  const Pose2 T_world_robot = filter_->pose();
+  const Eigen::Vector2d here(T_world_robot.x, T_world_robot.y);
+  std::ranges::sort(ids, [&](LandmarkId a, LandmarkId b) {
+    const double to_a = (belief.mean_of(a) - here).squaredNorm();
+    const double to_b = (belief.mean_of(b) - here).squaredNorm();
+    return to_a != to_b ? to_a < to_b : a < b;
+  });
+  if (ids.size() > most) ids.resize(most);
+  const auto k = static_cast<Eigen::Index>(ids.size());
+  Eigen::MatrixXd P(3 + 2 * k, 3 + 2 * k);
+  belief.covariance_with(ids, P);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * k, 3 + 2 * k);
+  out.p_robot.resize(2 * k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const ExpectedPlace place = expect_place(T_world_robot, belief.mean_of(ids[static_cast<std::size_t>(i)]));
+    out.p_robot.segment<2>(2 * i) = place.p_robot;
+    J.block<2, 3>(2 * i, 0) = place.J_x;
+    J.block<2, 2>(2 * i, 3 + 2 * i) = place.J_m;
+  }
+  out.covariance = J * P * J.transpose();
+}
+
+}  // namespace seif

@@ -1,0 +1,254 @@
+#include "seif/relocating/relocating_filter.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace seif {
+namespace {
+
+/// [-] Above this v' S^-1 v an observation contradicts what the filter believes: 16 times the chi-square quantile of two
+/// degrees of freedom at 1 - 1e-6, so also for a filter whose errors are four times as large as it believes.
+constexpr double contradiction = 16.0 * 27.63;
+/// [-] Within this v' Q^-1 v by the sensor's noise alone nothing has to be computed.
+constexpr double near_enough = 27.63;
+constexpr std::size_t most_around = 24;   // [-] landmarks of the local map that are used
+constexpr std::size_t most_bases = 12;    // [-] of these, for hypotheses
+constexpr int fewest_scans = 2;           // [-] of a local map
+constexpr int scans_until_trusted = 3;    // [-] in a row that fit again
+constexpr double agreement = 1e-6;        // [-] probability that right pairs are taken for wrong ones
+constexpr double pose_agreement = 1e-6;   // [-] and that a pose that is right is forgotten
+/// Two landmarks that agree lie within this of where they should, before their covariances are known.
+constexpr double rough_m = 0.5;           // [m]
+constexpr double rough = 0.1;             // [-] of their distance
+constexpr std::size_t fewest_vanished = 3;
+constexpr double sure_reach = 0.7;
+constexpr double sure_bearing = 0.8;
+
+LocalBelief& belief_of(Estimator& filter) {
+  if (LocalBelief* belief = filter.local_belief()) return *belief;
+  throw std::invalid_argument("relocate needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
+}
+
+}  // namespace
+
+RelocatingFilter::RelocatingFilter(std::unique_ptr<Estimator> filter, LocalMap::MakeFilter make_local,
+                                   const EstimatorSetup& setup)
+    : FilterAround(std::move(filter)),
+      belief_(belief_of(*filter_)),
+      T_robot_sensor_(setup.T_robot_sensor),
+      local_(std::move(make_local), setup.T_robot_sensor) {}
+
+void RelocatingFilter::motion_update(const Odometry& odometry) {
+  filter_->motion_update(odometry);
+  if (has_doubt_) local_.motion_update(odometry);
+}
+
+void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
+  const bool was_home = !has_doubt_;
+  if (was_home && (is_near_expected(scan) || judge(scan) != Verdict::contradicts) && !has_vanished(scan)) {
+    remember(scan);
+    filter_->measurement_update(scan, done);
+    return;
+  }
+  if (was_home) begin_search();
+  remember(scan);
+  follow(scan);
+  if (!has_doubt_) {
+    filter_->measurement_update(scan, done);
+    return;
+  }
+  search(scan);
+  empty_.t = scan.t;
+  filter_->measurement_update(empty_, done);
+}
+
+/// So near to what the filter expects that no covariance has to be known.
+bool RelocatingFilter::is_near_expected(const Scan& scan) const {
+  const Pose2 pose = filter_->pose();
+  return std::ranges::all_of(scan.observations, [&](const Observation& z) {
+    if (!belief_.is_at_hand(z.landmark)) return true;
+    const Eigen::Vector2d v =
+        innovation(z, predict_observation(pose, T_robot_sensor_, belief_.mean_of(z.landmark)).z);
+    return v.dot(z.covariance.inverse() * v) <= near_enough;
+  });
+}
+
+/// By the majority of its observations of known landmarks.
+RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
+  ids_.clear();
+  for (const Observation& z : scan.observations) {
+    if (belief_.is_at_hand(z.landmark)) ids_.push_back(z.landmark);
+  }
+  if (ids_.empty()) return Verdict::says_nothing;
+  belief_.begin_association(scan.t);
+  const auto n = static_cast<Eigen::Index>(3 + 2 * ids_.size());
+  if (Sigma_.rows() < n) Sigma_.resize(2 * n, 2 * n);
+  auto Sigma = Sigma_.topLeftCorner(n, n);
+  belief_.covariance_with(ids_, Sigma);
+  std::size_t against = 0;
+  Eigen::Index row = 3;
+  for (const Observation& z : scan.observations) {
+    if (!belief_.is_at_hand(z.landmark)) continue;
+    const ExpectedObservation expected = belief_.expect(z.landmark, z);
+    Eigen::Matrix<double, 2, 5> J;
+    J << expected.J_x, expected.J_m;
+    Eigen::Matrix<double, 5, 5> P;
+    P << Sigma.topLeftCorner<3, 3>(), Sigma.block<3, 2>(0, row), Sigma.block<2, 3>(row, 0),
+        Sigma.block<2, 2>(row, row);
+    const Eigen::Matrix2d S = J * P * J.transpose() + z.covariance;
+    if (!(expected.v.dot(S.inverse() * expected.v) <= contradiction)) ++against;
+    row += 2;
+  }
+  return 2 * against > ids_.size() ? Verdict::contradicts : Verdict::fits;
+}
+
+/// Whether the robot was carried off among landmarks that it has never seen: nothing of what it has just seen, and should
+/// see, is there, and something else is.
+bool RelocatingFilter::has_vanished(const Scan& scan) {
+  if (scan.observations.size() < 2 || last_seen_.size() < fewest_vanished) return false;
+  for (const Observation& z : scan.observations) {
+    if (std::ranges::find(last_seen_, z.landmark) != last_seen_.end() || belief_.is_at_hand(z.landmark)) return false;
+  }
+  const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
+  const auto is_in_view = [&](LandmarkId id) {
+    if (!belief_.is_at_hand(id)) return false;
+    const Eigen::Vector2d p = T_sensor_world * belief_.mean_of(id);
+    return p.norm() <= sure_reach * reach_ && std::abs(std::atan2(p.y(), p.x())) <= sure_bearing * widest_bearing_;
+  };
+  return std::cmp_greater_equal(std::ranges::count_if(last_seen_, is_in_view), fewest_vanished);
+}
+
+void RelocatingFilter::remember(const Scan& scan) {
+  if (scan.observations.empty()) return;
+  last_seen_.clear();
+  for (const Observation& z : scan.observations) {
+    reach_ = std::max(reach_, z.range);
+    widest_bearing_ = std::max(widest_bearing_, std::abs(z.bearing));
+    last_seen_.push_back(z.landmark);
+  }
+}
+
+void RelocatingFilter::begin_search() {
+  has_doubt_ = true;
+  fitting_scans_ = 0;
+  local_.begin();
+}
+
+void RelocatingFilter::end_search() {
+  has_doubt_ = false;
+  local_.end();
+}
+
+/// What contradicts once may be an outlier: when the scans fit again, the filter goes on.
+void RelocatingFilter::follow(const Scan& scan) {
+  const Verdict verdict = judge(scan);
+  if (verdict == Verdict::contradicts) fitting_scans_ = 0;
+  if (verdict == Verdict::fits) ++fitting_scans_;
+  if (fitting_scans_ >= scans_until_trusted) end_search();
+}
+
+void RelocatingFilter::search(const Scan& scan) {
+  held_back_ += static_cast<std::int64_t>(scan.observations.size());
+  local_.measurement_update(scan);
+  const Counts counts = local_.filter().counts();
+  if (counts.innovation && counts.innovation_degrees > 0 &&
+      *counts.innovation > 0.5 * contradiction * counts.innovation_degrees) {
+    local_.begin();  // it has slipped or was carried off again
+    local_.measurement_update(scan);
+  }
+  if (local_.scans() < fewest_scans) return;
+  local_.read(scan.t, most_around, surroundings_);
+  pair_by_names();
+  if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement, scan.t);
+}
+
+void RelocatingFilter::pair_by_names() {
+  filter_->landmarks(surroundings_.landmarks, found_);
+  known_.clear();
+  known_at_.clear();
+  std::size_t next = 0;
+  for (const LandmarkEstimate& estimate : found_) {
+    while (surroundings_.landmarks[next] != estimate.landmark) ++next;
+    known_.push_back({next, estimate.landmark});
+    known_at_.push_back(estimate.mean);
+  }
+}
+
+/// Of all poses that two pairs give, the one to which most pairs fit.
+bool RelocatingFilter::choose_most_that_agree(Placement& placement) const {
+  std::size_t most = 1;
+  const std::size_t bases = std::min(known_.size(), most_bases);
+  for (std::size_t a = 0; a < bases; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const Eigen::Vector2d a_robot = surroundings_.at(known_[a].around);
+      const Eigen::Vector2d b_robot = surroundings_.at(known_[b].around);
+      const Pose2 T = pose_from(a_robot, b_robot, known_at_[a], known_at_[b]);
+      std::vector<Pairing> agreeing;
+      for (std::size_t i = 0; i < known_.size(); ++i) {
+        const Eigen::Vector2d p = surroundings_.at(known_[i].around);
+        const double allowed = rough_m + rough * (p - 0.5 * (a_robot + b_robot)).norm();
+        if ((T * p - known_at_[i]).norm() <= allowed) agreeing.push_back(known_[i]);
+      }
+      if (agreeing.size() <= most) continue;
+      most = agreeing.size();
+      placement.T_world_robot = T;
+      placement.pairs = std::move(agreeing);
+    }
+  }
+  return most >= 2 && 2 * most > known_.size();
+}
+
+/// Where most of the known landmarks agree, by the filter's own covariance.
+std::optional<Placement> RelocatingFilter::place(double t) {
+  Placement placement;
+  if (!choose_most_that_agree(placement)) return std::nullopt;
+  ids_.clear();
+  for (const Pairing& pair : placement.pairs) ids_.push_back(pair.landmark);
+  belief_.begin_association(t);
+  if (!belief_.bring(ids_)) throw NumericalFailure("relocation", t);
+  while (2 * placement.pairs.size() > known_.size()) {
+    if (!fit(belief_, surroundings_, placement)) return std::nullopt;
+    const int degrees = 2 * static_cast<int>(placement.pairs.size()) - 3;
+    if (placement.squared_distance <= chi_square_gate((degrees + 1) / 2, agreement)) return placement;
+    placement.pairs.erase(placement.pairs.begin() + static_cast<std::ptrdiff_t>(placement.worst));
+  }
+  return std::nullopt;
+}
+
+void RelocatingFilter::tell_filter(const Placement& placement, double t) {
+  const double from_belief =
+      squared_distance_from_belief(belief_, filter_->pose(), surroundings_, placement.pairs);
+  const double of_pose = from_belief - placement.squared_distance;
+  Relocation relocation{.T_world_robot = placement.T_world_robot, .surroundings = {}, .keeps_pose = false};
+  relocation.keeps_pose = of_pose <= chi_square_gate(2, pose_agreement);
+  // Landmarks that are known, and lie elsewhere, are left out.
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < surroundings_.size(); ++i) {
+    const bool is_known = std::ranges::find(known_, i, &Pairing::around) != known_.end();
+    const bool is_paired =
+        std::ranges::find(placement.pairs, i, &Pairing::around) != placement.pairs.end();
+    if (is_known && !is_paired) continue;
+    relocation.surroundings.landmarks.push_back(surroundings_.landmarks[i]);
+    rows.insert(rows.end(), {2 * static_cast<int>(i), 2 * static_cast<int>(i) + 1});
+  }
+  relocation.surroundings.p_robot = surroundings_.p_robot(rows);
+  relocation.surroundings.covariance = surroundings_.covariance(rows, rows);
+  belief_.relocate(relocation);
+  static_cast<void>(t);
+  end_search();
+}
+
+Counts RelocatingFilter::counts() const {
+  Counts counts = filter_->counts();
+  counts.gated += held_back_;
+  return counts;
+}
+
+std::size_t RelocatingFilter::memory_bytes() const {
+  return filter_->memory_bytes() + (local_.is_begun() ? local_.filter().memory_bytes() : 0);
+}
+
+}  // namespace seif
