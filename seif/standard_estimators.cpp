@@ -124,13 +124,21 @@ std::unique_ptr<Estimator> completed(const EstimatorSetup& setup, const Struct& 
   AssociationChoice choice = association_table().read(options);
   choice.options.jointly = choice.how == Association::joint;
   auto filter = std::make_unique<Filter>(setup, filter_options);
-  if (choice.how != Association::known)
-    return std::make_unique<AssociatingFilter>(std::move(filter), setup, choice.options);
-  if (!choice.relocates || filter->local_belief() == nullptr) return filter;
-  const auto make_local = [filter_options](const EstimatorSetup& local) {
-    return std::make_unique<Filter>(local, filter_options);
-  };
-  return std::make_unique<RelocatingFilter>(std::move(filter), make_local, setup);
+  const bool relocates = choice.relocates && filter->local_belief() != nullptr;
+  if (choice.how == Association::known) {
+    if (!relocates) return filter;
+    const auto make_local = [filter_options](const EstimatorSetup& local) {
+      return std::make_unique<Filter>(local, filter_options);
+    };
+    return std::make_unique<RelocatingFilter>(std::move(filter), make_local, setup);
+  }
+  LocalMap::MakeFilter make_local;
+  if (relocates) {
+    make_local = [filter_options, associating = choice.options](const EstimatorSetup& local) {
+      return std::make_unique<AssociatingFilter>(std::make_unique<Filter>(local, filter_options), local, associating);
+    };
+  }
+  return std::make_unique<AssociatingFilter>(std::move(filter), setup, choice.options, make_local);
 }
 
 /// An estimator whose filter is made from an options struct alone.

@@ -4,7 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <stdexcept>
+
+#include "seif/measurement_steps.hpp"
 
 namespace seif {
 namespace {
@@ -22,6 +25,9 @@ constexpr int never = -1'000'000;                 // [-] of these, for two that 
 // Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
+constexpr int recently = 3;            // [-] scans
+constexpr int fewest_compared = 3;     // [-] observations or landmarks, for a scan to say that it does not fit
+constexpr int scans_to_fit_again = 5;  // [-] after which only the search tells where the robot is
 
 double largest_variance(const Eigen::Matrix2d& covariance) {
   const double mean = 0.5 * covariance.trace();
@@ -38,7 +44,7 @@ LocalBelief& belief_of(Estimator& filter) {
 }  // namespace
 
 AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
-                                     const AssociationOptions& options)
+                                     const AssociationOptions& options, LocalMap::MakeFilter make_local)
     : FilterAround(std::move(filter)),
       belief_(belief_of(*filter_)),
       T_robot_sensor_(setup.T_robot_sensor),
@@ -46,6 +52,8 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const Es
       matcher_(options.match_probability, options.new_probability),
       merge_gate_(chi_square_gate(1, options.merge_probability)),
       tentative_(options.forget_after) {
+  if (make_local)
+    search_.emplace(belief_, std::move(make_local), T_robot_sensor_, options.wrong_place_probability);
   // More than scans mostly need, so that none comes to ask for more when the map is long known.
   suspicions_.reserve(most_suspicions);
   for (auto* ids : {&at_hand_, &asked_, &wanted_}) ids->reserve(4 * most_asked);
@@ -59,6 +67,7 @@ void AssociatingFilter::motion_update(const Odometry& odometry) {
   const Eigen::Matrix3d& R = odometry.covariance;
   wander_ += R(0, 0) + R(1, 1) + reach_ * reach_ * R(2, 2);
   filter_->motion_update(odometry);
+  if (search_ && search_->is_on()) search_->motion_update(odometry);
 }
 
 void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
@@ -68,11 +77,17 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
   tentative_.begin_scan(std::exchange(wander_, 0.0));
   refresh_grid();
   find_pairs(scan);
-  name(scan);
-  note_expected();
-  suspect();
-  merge();
-  belief_.want(wanted_);
+  if (search_ && is_lost(scan)) {
+    look_for_place(scan);
+  } else {
+    last_home_ = scan_;
+    name(scan);
+    note_expected();
+    suspect();
+    merge();
+    belief_.want(wanted_);
+    if (search_ && grid_) search_->keep_up(scan_);
+  }
   filter_->measurement_update(named_, done);
 }
 
@@ -83,7 +98,13 @@ void AssociatingFilter::widen_view(const Scan& scan) {
     widest_bearing_ = std::max(widest_bearing_, std::abs(observation.bearing));
   }
   constexpr double least_cell = 1e-3;  // [m]
-  if (!grid_ && !scan.observations.empty()) grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
+  if (grid_ || scan.observations.empty()) return;
+  grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
+  if (!search_) return;
+  double sighting_sd = 0.0;
+  for (const Observation& observation : scan.observations)
+    sighting_sd = std::max(sighting_sd, sd_of_sighting(observation));
+  search_->use(*grid_, sighting_sd, reach_);
 }
 
 /// Landmarks at hand may have moved; all others wait until they are.
@@ -91,6 +112,86 @@ void AssociatingFilter::refresh_grid() {
   belief_.landmarks_at_hand(at_hand_);
   std::erase_if(at_hand_, [&](LandmarkId id) { return landmark(id).is_retired; });
   for (const LandmarkId id : at_hand_) grid_->move(id, belief_.mean_of(id));
+}
+
+// A robot that is lost.
+
+/// Whether what the robot has just seen is not where it should be, and something else is: most of what this scan could be
+/// paired with is not.
+bool AssociatingFilter::breaks_off(const Scan& scan) const {
+  const auto observed = static_cast<int>(scan.observations.size());
+  int paired = 0;
+  std::vector<LandmarkId> seen;
+  for (int i = 0; i < observed; ++i) {
+    if (matcher_.match(i) == ScanMatcher::none) continue;
+    ++paired;
+    seen.push_back(asked_[static_cast<std::size_t>(matcher_.match(i))]);
+  }
+  const auto missed = static_cast<int>(std::ranges::count_if(at_hand_, [&](LandmarkId id) {
+    return landmark(id).last_seen >= last_home_ - recently && std::ranges::find(seen, id) == seen.end() &&
+           should_see(id);
+  }));
+  const int comparable = std::min(observed, paired + missed);
+  return comparable >= fewest_compared && 2 * paired < comparable;
+}
+
+/// One scan that does not fit is ignored, the second begins a search.
+bool AssociatingFilter::is_lost(const Scan& scan) {
+  if (!search_->is_on()) {
+    broken_ = breaks_off(scan) ? broken_ + 1 : 0;
+    if (broken_ == 0) return false;
+    fitting_ = 0;
+    if (broken_ > 1) search_->begin();
+    return true;
+  }
+  // An outlier of a whole scan: what comes soon afterwards fits again.
+  ++broken_;
+  const auto paired = std::ranges::count_if(std::views::iota(0, static_cast<int>(scan.observations.size())),
+                                            [&](int i) { return matcher_.match(i) != ScanMatcher::none; });
+  const bool fits = paired >= fewest_compared && 2 * paired > std::ssize(scan.observations);
+  fitting_ = fits ? fitting_ + 1 : 0;
+  if (broken_ > scans_to_fit_again || fitting_ < 2) return true;
+  search_->end();
+  broken_ = 0;
+  return false;
+}
+
+/// The filter gets no observation of this scan. If the robot is found, it is told so.
+void AssociatingFilter::look_for_place(const Scan& scan) {
+  held_back_ += std::ssize(scan.observations);
+  names_.assign(scan.observations.size(), no_landmark);
+  named_.t = scan.t;
+  named_.observations.clear();
+  if (!search_->is_on()) return;
+  std::optional<Relocation> found = search_->measurement_update(scan, filter_->pose());
+  if (!found) return;
+  for (std::size_t i = 0; i < found->surroundings.size(); ++i) {
+    LandmarkId& name = found->surroundings.landmarks[i];
+    if (name == no_landmark) name = new_name(found->T_world_robot * found->surroundings.at(i));
+    ++landmark(name).seen;
+    ++landmark(name).expected;
+    landmark(name).last_seen = scan_;
+    landmark(name).farthest = std::max(landmark(name).farthest, found->surroundings.at(i).norm());
+  }
+  belief_.relocate(*found);
+  search_->end();
+  broken_ = 0;
+  last_home_ = scan_;
+}
+
+LandmarkId AssociatingFilter::new_name(const Eigen::Vector2d& p_world) {
+  const auto id = static_cast<LandmarkId>(landmarks_.size());
+  landmarks_.push_back({});
+  grid_->add(p_world);
+  if (search_) search_->note_joined(id, scan_);
+  return id;
+}
+
+/// From the pose that the filter believes: it is well within the ranges and bearings at which things are seen.
+bool AssociatingFilter::should_see(LandmarkId id) const {
+  const Eigen::Vector2d p_sensor = inverse(filter_->pose() * T_robot_sensor_) * belief_.mean_of(id);
+  return p_sensor.norm() <= sure_reach * landmark(id).farthest &&
+         std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
 }
 
 // Candidates.
@@ -184,10 +285,7 @@ LandmarkId AssociatingFilter::name_if_new(std::size_t observation) {
   if (sighting.times < options_.admit_after) return no_landmark;
   if (want_near(seen) && sighting.age < patience) return no_landmark;
   tentative_.admit_last();
-  const auto id = static_cast<LandmarkId>(landmarks_.size());
-  landmarks_.push_back({});
-  grid_->add(seen.p_world);
-  return id;
+  return new_name(seen.p_world);
 }
 
 /// What may be of it and is not at hand; whether there is such.
@@ -205,14 +303,8 @@ bool AssociatingFilter::want_near(const Seen& seen) {
 // Those that should have been seen.
 
 void AssociatingFilter::note_expected() {
-  const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
   for (const LandmarkId id : at_hand_) {
-    if (is_seen_now(id)) continue;
-    const Eigen::Vector2d p_sensor = T_sensor_world * belief_.mean_of(id);
-    const bool is_in_view =
-        p_sensor.norm() <= sure_reach * landmark(id).farthest &&
-        std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
-    if (!is_in_view) continue;
+    if (is_seen_now(id) || !should_see(id)) continue;
     const int expected = ++landmark(id).expected;
     if (expected > fewest_expected && landmark(id).seen < options_.remove_below * expected) retire(id);
   }
@@ -297,13 +389,14 @@ void AssociatingFilter::merge() {
 
 Counts AssociatingFilter::counts() const {
   Counts counts = filter_->counts();
-  counts.blocks_touched += blocks_touched_;
+  counts.blocks_touched += blocks_touched_ + (search_ ? search_->work() : 0);
+  counts.gated += held_back_;
   return counts;
 }
 
 std::size_t AssociatingFilter::memory_bytes() const {
   return filter_->memory_bytes() + landmarks_.memory_bytes() + tentative_.memory_bytes() +
-         (grid_ ? grid_->memory_bytes() : 0) + sizeof(double) * static_cast<std::size_t>(Sigma_.size());
+         (grid_ ? grid_->memory_bytes() : 0) + (search_ ? search_->memory_bytes() : 0) + sizeof(double) * static_cast<std::size_t>(Sigma_.size());
 }
 
 void AssociatingFilter::landmarks(std::span<const LandmarkId> landmarks,

@@ -18,6 +18,7 @@
 #include "seif/association/tentative_landmarks.hpp"
 #include "seif/chunked_array.hpp"
 #include "seif/estimator.hpp"
+#include "seif/relocating/unnamed_search.hpp"
 
 namespace seif {
 
@@ -34,15 +35,18 @@ struct AssociationOptions {
   int forget_after = 10;  // [-] scans that did not see it, until then, after which it is forgotten
   /// [-] Removes a landmark that was seen in less than this share of the scans that should have seen it.
   double remove_below = 0.05;
+  /// [-] The probability of a wrong match that is as good as one by which a lost robot is put back.
+  double wrong_place_probability = 1e-6;
 };
 
 /// Names are 0, 1, 2, .. in the order in which landmarks join. Removed and merged landmarks stay in the filter's
 /// belief, but not in its map, and are never observed again.
 class AssociatingFilter final : public FilterAround {
  public:
-  /// Throws std::invalid_argument if the filter has no local belief.
+  /// `make_local` makes filters of the same kind for the maps of a lost robot; without it the robot stays lost. Throws
+  /// std::invalid_argument if the filter has no local belief.
   AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
-                    const AssociationOptions& options);
+                    const AssociationOptions& options, LocalMap::MakeFilter make_local = {});
 
   void motion_update(const Odometry& odometry) override;
   void measurement_update(const Scan& scan, const StageDone& done) override;
@@ -79,6 +83,11 @@ class AssociatingFilter final : public FilterAround {
   bool is_in_map(LandmarkId id) const;
   bool is_seen_now(LandmarkId id) const { return landmark(id).last_seen == scan_; }
 
+  bool is_lost(const Scan& scan);
+  bool breaks_off(const Scan& scan) const;
+  void look_for_place(const Scan& scan);
+  LandmarkId new_name(const Eigen::Vector2d& p_world);
+  bool should_see(LandmarkId id) const;
   void refresh_grid();
   void find_pairs(const Scan& scan);
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);
@@ -104,6 +113,10 @@ class AssociatingFilter final : public FilterAround {
   std::optional<LandmarkGrid> grid_;  // made once it is known how far the robot sees
   ChunkedArray<Landmark> landmarks_;  // by name
   std::vector<Suspicion> suspicions_;
+  std::optional<UnnamedSearch> search_;
+  int last_home_ = 0;                    // the last scan that fitted
+  int broken_ = 0, fitting_ = 0;         // [-] scans in a row that do not fit, or fit again
+  std::int64_t held_back_ = 0;           // [-] observations
   int scan_ = 0;
   double wander_ = 0.0;                        // [m^2] since the last scan
   double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]

@@ -4,16 +4,6 @@
 #include <cmath>
 
 namespace seif {
-namespace {
-
-/// Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014: its mixing function.
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
-
-}  // namespace
 
 LandmarkGrid::Cell LandmarkGrid::cell_of(const Eigen::Vector2d& p_world) const {
   constexpr double farthest = 1e15;  // [-] cells; what has diverged must not overflow
@@ -23,64 +13,25 @@ LandmarkGrid::Cell LandmarkGrid::cell_of(const Eigen::Vector2d& p_world) const {
   return {number(p_world.x()), number(p_world.y())};
 }
 
-/// Lists below next_split_ have been split in this round, so one more bit of the hash counts.
-std::size_t LandmarkGrid::list_of(const Cell& cell) const {
-  const std::uint64_t hash =
-      mixed(static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15U + static_cast<std::uint64_t>(cell.y));
-  const std::size_t list = hash & (round_ - 1);
-  return list < next_split_ ? hash & (2 * round_ - 1) : list;
-}
-
-void LandmarkGrid::put_in(int i) {
-  int& head = lists_[list_of(landmark(i).cell)];
-  landmark(i).next = head;
-  landmark(i).is_in = true;
-  head = i;
-}
-
-void LandmarkGrid::take_out(int i) {
-  int* link = &lists_[list_of(landmark(i).cell)];
-  while (*link != i) link = &landmark(*link).next;
-  *link = landmark(i).next;
-  landmark(i).is_in = false;
-}
-
-void LandmarkGrid::split() {
-  const std::size_t from = next_split_;
-  int i = lists_[from];
-  lists_[from] = none;
-  lists_.push_back(none);
-  if (++next_split_ == round_) {
-    round_ *= 2;
-    next_split_ = 0;
-  }
-  while (i != none) {
-    const int next = landmark(i).next;
-    put_in(i);
-    i = next;
-  }
+std::uint64_t LandmarkGrid::hash_of(const Cell& cell) {
+  return mixed(static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15U + static_cast<std::uint64_t>(cell.y));
 }
 
 void LandmarkGrid::add(const Eigen::Vector2d& p_world) {
-  const auto i = static_cast<int>(landmarks_.size());
   landmarks_.push_back({.p_world = p_world, .cell = cell_of(p_world)});
-  put_in(i);
-  if (landmarks_.size() > landmarks_per_list * lists_.size()) split();
+  lists_.add(hash_of(cell_of(p_world)));
 }
 
 void LandmarkGrid::move(LandmarkId i, const Eigen::Vector2d& p_world) {
-  if (!landmark(i).is_in) return;
+  if (!lists_.is_in(i)) return;
   landmark(i).p_world = p_world;
   const Cell cell = cell_of(p_world);
   if (cell == landmark(i).cell) return;
-  take_out(i);
   landmark(i).cell = cell;
-  put_in(i);
+  lists_.move(i, hash_of(cell));
 }
 
-void LandmarkGrid::remove(LandmarkId i) {
-  if (landmark(i).is_in) take_out(i);
-}
+void LandmarkGrid::remove(LandmarkId i) { lists_.remove(i); }
 
 /// Visits the landmarks of the cells whose larger distance in x or y from the centre is `ring`.
 template <class Visit>
@@ -89,9 +40,9 @@ void LandmarkGrid::for_each_in_ring(const Cell& centre, int ring, Visit&& visit)
     const int step = ring == 0 || std::abs(dy) == ring ? 1 : 2 * ring;
     for (int dx = -ring; dx <= ring; dx += step) {
       const Cell cell{centre.x + dx, centre.y + dy};
-      for (int i = lists_[list_of(cell)]; i != none; i = landmark(i).next) {
+      lists_.for_each(hash_of(cell), [&](int i) {
         if (landmark(i).cell == cell) visit(i);
-      }
+      });
     }
   }
 }

@@ -5,11 +5,14 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace seif {
 namespace {
 
-constexpr int rounds = 4;  // [-] of Gauss-Newton
+constexpr int fit_rounds = 4;                // [-] of Gauss-Newton
+constexpr double agreement = 1e-6;       // [-] probability that right pairs are taken for wrong ones
+constexpr double pose_agreement = 1e-6;  // [-] and that a pose that is right is forgotten
 
 /// The pairs, linearised at a pose.
 struct Linearised {
@@ -49,6 +52,15 @@ Eigen::MatrixXd covariance_of(const LocalBelief& belief, const std::vector<Pairi
   return Sigma;
 }
 
+/// Of the ellipses in which an observation is of the landmark with a probability of 0.99.
+double log_areas(const Eigen::MatrixXd& S) {
+  constexpr double gate = 9.21;  // [-] chi-square quantile, 2 degrees of freedom
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < S.rows(); i += 2)
+    sum += std::log(gate * std::numbers::pi) + 0.5 * std::log(Eigen::Matrix2d(S.block<2, 2>(i, i)).determinant());
+  return sum;
+}
+
 std::size_t worst_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& S) {
   std::size_t worst = 0;
   double farthest = -1.0;
@@ -79,7 +91,7 @@ bool fit(const LocalBelief& belief, const Surroundings& surroundings, Placement&
   if (placement.pairs.size() < 2) return false;
   const auto m = static_cast<Eigen::Index>(placement.pairs.size());
   const Eigen::MatrixXd Sigma = covariance_of(belief, placement.pairs).bottomRightCorner(2 * m, 2 * m);
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < fit_rounds; ++round) {
     Linearised all = linearise(belief, placement.T_world_robot, surroundings, placement.pairs);
     const Eigen::MatrixXd S = all.J_m * Sigma * all.J_m.transpose() + all.C;
     const Eigen::LLT<Eigen::MatrixXd> L(S);
@@ -91,9 +103,40 @@ bool fit(const LocalBelief& belief, const Surroundings& surroundings, Placement&
     Pose2& pose = placement.T_world_robot;
     pose = {pose.x + step(0), pose.y + step(1), wrap_angle(pose.theta + step(2))};
     placement.squared_distance = (b - A * step).squaredNorm();
+    placement.log_areas = log_areas(S);
     placement.worst = worst_of(all.v - all.J_x * step, S);
   }
   return std::isfinite(placement.squared_distance);
+}
+
+bool fit_most(const LocalBelief& belief, const Surroundings& surroundings, std::size_t fewest,
+              Placement& placement) {
+  while (placement.pairs.size() >= fewest) {
+    if (!fit(belief, surroundings, placement)) return false;
+    const int degrees = 2 * static_cast<int>(placement.pairs.size()) - 3;
+    if (placement.squared_distance <= chi_square_gate((degrees + 1) / 2, agreement)) return true;
+    placement.pairs.erase(placement.pairs.begin() + static_cast<std::ptrdiff_t>(placement.worst));
+  }
+  return false;
+}
+
+Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot, const Surroundings& surroundings,
+                         const Placement& placement, const std::vector<LandmarkId>& names,
+                         const std::vector<bool>& is_used) {
+  const double of_pose =
+      squared_distance_from_belief(belief, T_world_robot, surroundings, placement.pairs) - placement.squared_distance;
+  Relocation relocation{.T_world_robot = placement.T_world_robot,
+                        .surroundings = {},
+                        .keeps_pose = of_pose <= chi_square_gate(2, pose_agreement)};
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < surroundings.size(); ++i) {
+    if (!is_used[i]) continue;
+    relocation.surroundings.landmarks.push_back(names[i]);
+    rows.insert(rows.end(), {2 * static_cast<int>(i), 2 * static_cast<int>(i) + 1});
+  }
+  relocation.surroundings.p_robot = surroundings.p_robot(rows);
+  relocation.surroundings.covariance = surroundings.covariance(rows, rows);
+  return relocation;
 }
 
 double squared_distance_from_belief(const LocalBelief& belief, const Pose2& T_world_robot,

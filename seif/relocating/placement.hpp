@@ -22,6 +22,7 @@ struct Placement {
   std::vector<Pairing> pairs;
   double squared_distance = 0.0;  // [-] v' S^-1 v there, with 2 pairs - 3 degrees of freedom
   std::size_t worst = 0;          // the pair that fits least
+  double log_areas = 0.0;         // [nat] sum over the pairs: log of the area in which a landmark would fit [m^2]
 };
 
 /// From two points in the frame of the robot, and where they are in the world.
@@ -32,6 +33,17 @@ Pose2 pose_from(const Eigen::Vector2d& a_robot, const Eigen::Vector2d& b_robot,
 /// has the covariance S of map and surroundings together. The landmarks are at hand. False if S is not positive definite,
 /// or for fewer than two pairs.
 [[nodiscard]] bool fit(const LocalBelief& belief, const Surroundings& surroundings, Placement& placement);
+
+/// Fits, and leaves out the pair that fits least until the rest agree. False, with fewer than `fewest` pairs left, if
+/// they never do.
+[[nodiscard]] bool fit_most(const LocalBelief& belief, const Surroundings& surroundings, std::size_t fewest,
+                            Placement& placement);
+
+/// What the filter is told: the pose is kept if the surroundings agree with it, T_world_robot as the filter believes it.
+/// `names` and `is_used`: of each of the surroundings.
+Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot, const Surroundings& surroundings,
+                         const Placement& placement, const std::vector<LandmarkId>& names,
+                         const std::vector<bool>& is_used);
 
 /// v' S^-1 v if the pose is what the filter believes, with 2 pairs degrees of freedom.
 double squared_distance_from_belief(const LocalBelief& belief, const Pose2& T_world_robot,

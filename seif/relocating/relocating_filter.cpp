@@ -18,8 +18,6 @@ constexpr std::size_t most_around = 24;   // [-] landmarks of the local map that
 constexpr std::size_t most_bases = 12;    // [-] of these, for hypotheses
 constexpr int fewest_scans = 2;           // [-] of a local map
 constexpr int scans_until_trusted = 3;    // [-] in a row that fit again
-constexpr double agreement = 1e-6;        // [-] probability that right pairs are taken for wrong ones
-constexpr double pose_agreement = 1e-6;   // [-] and that a pose that is right is forgotten
 /// Two landmarks that agree lie within this of where they should, before their covariances are known.
 constexpr double rough_m = 0.5;           // [m]
 constexpr double rough = 0.1;             // [-] of their distance
@@ -162,7 +160,7 @@ void RelocatingFilter::search(const Scan& scan) {
   if (local_.scans() < fewest_scans) return;
   local_.read(scan.t, most_around, surroundings_);
   pair_by_names();
-  if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement, scan.t);
+  if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement);
 }
 
 void RelocatingFilter::pair_by_names() {
@@ -209,35 +207,18 @@ std::optional<Placement> RelocatingFilter::place(double t) {
   for (const Pairing& pair : placement.pairs) ids_.push_back(pair.landmark);
   belief_.begin_association(t);
   if (!belief_.bring(ids_)) throw NumericalFailure("relocation", t);
-  while (2 * placement.pairs.size() > known_.size()) {
-    if (!fit(belief_, surroundings_, placement)) return std::nullopt;
-    const int degrees = 2 * static_cast<int>(placement.pairs.size()) - 3;
-    if (placement.squared_distance <= chi_square_gate((degrees + 1) / 2, agreement)) return placement;
-    placement.pairs.erase(placement.pairs.begin() + static_cast<std::ptrdiff_t>(placement.worst));
-  }
-  return std::nullopt;
+  if (!fit_most(belief_, surroundings_, std::max<std::size_t>(2, known_.size() / 2 + 1), placement))
+    return std::nullopt;
+  return placement;
 }
 
-void RelocatingFilter::tell_filter(const Placement& placement, double t) {
-  const double from_belief =
-      squared_distance_from_belief(belief_, filter_->pose(), surroundings_, placement.pairs);
-  const double of_pose = from_belief - placement.squared_distance;
-  Relocation relocation{.T_world_robot = placement.T_world_robot, .surroundings = {}, .keeps_pose = false};
-  relocation.keeps_pose = of_pose <= chi_square_gate(2, pose_agreement);
-  // Landmarks that are known, and lie elsewhere, are left out.
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < surroundings_.size(); ++i) {
-    const bool is_known = std::ranges::find(known_, i, &Pairing::around) != known_.end();
-    const bool is_paired =
-        std::ranges::find(placement.pairs, i, &Pairing::around) != placement.pairs.end();
-    if (is_known && !is_paired) continue;
-    relocation.surroundings.landmarks.push_back(surroundings_.landmarks[i]);
-    rows.insert(rows.end(), {2 * static_cast<int>(i), 2 * static_cast<int>(i) + 1});
-  }
-  relocation.surroundings.p_robot = surroundings_.p_robot(rows);
-  relocation.surroundings.covariance = surroundings_.covariance(rows, rows);
-  belief_.relocate(relocation);
-  static_cast<void>(t);
+/// Landmarks that are known, and lie elsewhere, are left out.
+void RelocatingFilter::tell_filter(const Placement& placement) {
+  std::vector<bool> is_used(surroundings_.size(), true);
+  for (const Pairing& pair : known_) is_used[pair.around] = false;
+  for (const Pairing& pair : placement.pairs) is_used[pair.around] = true;
+  belief_.relocate(
+      relocation_to(belief_, filter_->pose(), surroundings_, placement, surroundings_.landmarks, is_used));
   end_search();
 }
 

@@ -1,0 +1,215 @@
+#include "seif/relocating/constellation_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "seif/relocating/rigid_fit.hpp"
+
+namespace seif {
+namespace {
+
+constexpr std::int64_t most_poses = 2000;   // [-] that one scan looks at, after which no further corner is begun
+constexpr std::size_t most_hypotheses = 8;  // [-] that are kept
+constexpr std::size_t fewest_fitting = 4;   // [-] points of a pose that is remembered
+constexpr std::size_t corners_before = 8;   // [-] that must have been looked from before a pose is told
+constexpr double least_share = 0.6;         // [-] of what lies among the points that fit
+constexpr double least_lead = 9.2;          // [nat] over any other pose
+constexpr int climbs = 5;                   // [-] of pairs and pose in turn
+constexpr double alike_m = 1.0;             // [m]
+constexpr double alike_rad = 0.2;           // [rad]
+constexpr std::size_t most_counted = 256;   // [-] landmarks, for their density
+
+}  // namespace
+
+void ConstellationSearch::step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot,
+                               const Pose2& T_world_robot) {
+  points_ = points;
+  T_local_robot_ = T_local_robot;
+  T_world_robot_ = T_world_robot;
+  for (Hypothesis& hypothesis : hypotheses_) rate(hypothesis);
+  std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
+  if (points_.size() < fewest_fitting) return;
+  const std::int64_t until = work_ + most_poses;
+  for (std::size_t i = 0; i < points_.size() && work_ < until; ++i) {
+    look_from(next_corner_ % points_.size());
+    ++next_corner_;
+    ++corners_done_;
+  }
+}
+
+/// All triangles of a point with the points near it.
+void ConstellationSearch::look_from(std::size_t corner) {
+  std::vector<int> others(points_.size());
+  std::iota(others.begin(), others.end(), 0);
+  std::erase(others, static_cast<int>(corner));
+  const auto distance = [&](int i) { return (points_[static_cast<std::size_t>(i)] - points_[corner]).squaredNorm(); };
+  std::ranges::stable_sort(others, {}, distance);
+  if (others.size() > ConstellationIndex::neighbours) others.resize(ConstellationIndex::neighbours);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::array<int, 3> corners{static_cast<int>(corner), others[i], others[j]};
+      const auto at = [&](std::size_t c) { return points_[static_cast<std::size_t>(corners[c])]; };
+      Triangle triangle = triangle_of(corners, {at(0), at(1), at(2)}, index_.width());
+      if (!triangle.is_sharp) continue;
+      const double longest = triangle.sides(0);
+      for (int turn = 0; turn < 3; ++turn) {  // in the map another side may be the longest, by noise
+        if (triangle.sides(0) >= longest - index_.width()) try_triangle(triangle);
+        std::ranges::rotate(triangle.corners, triangle.corners.begin() + 1);
+        triangle.sides = Eigen::Vector3d(triangle.sides(1), triangle.sides(2), triangle.sides(0));
+      }
+    }
+  }
+}
+
+void ConstellationSearch::try_triangle(const Triangle& triangle) {
+  const auto at = [&](std::size_t c) { return points_[static_cast<std::size_t>(triangle.corners[c])]; };
+  index_.for_each_like(triangle.sides, [&](const std::array<LandmarkId, 3>& corners) {
+    ++work_;
+    for (const LandmarkId id : corners) {
+      if (!grid_.has(id)) return;
+    }
+    const Pose2 T = pose_from(at(0), at(1), grid_.position(corners[0]), grid_.position(corners[1]));
+    if ((T * at(2) - grid_.position(corners[2])).norm() <= near_) try_pose(T);
+  });
+}
+
+void ConstellationSearch::try_pose(const Pose2& T_world_local) {
+  if (count(T_world_local, fewest_fitting) < fewest_fitting) return;
+  Hypothesis hypothesis{.T_world_local = T_world_local};
+  rate(hypothesis);
+  if (hypotheses_.size() < most_hypotheses || hypothesis.score > hypotheses_.back().score) remember(hypothesis);
+}
+
+/// Were the landmarks scattered at random, as densely as there, a point would have one within near_ with probability
+/// p = 1 - exp(-density pi near_^2). The fewer places are no farther away, the less is it chance.
+void ConstellationSearch::rate(Hypothesis& hypothesis) const {
+  hypothesis.fitting = count(hypothesis.T_world_local, 0);
+  const double p = 1.0 - std::exp(-density_at(hypothesis.T_world_local) * std::numbers::pi * near_ * near_);
+  hypothesis.score = -static_cast<double>(hypothesis.fitting) * std::log(p) - log_places(hypothesis.T_world_local);
+}
+
+/// How many points have a landmark; 0 as soon as fewer than `at_least` can have.
+std::size_t ConstellationSearch::count(const Pose2& T_world_local, std::size_t at_least) const {
+  std::size_t fitting = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (fitting + points_.size() - i < at_least) return 0;
+    grid_.find_near(T_world_local * points_[i], near_, 1, found_near_);
+    if (!found_near_.empty()) ++fitting;
+  }
+  return fitting;
+}
+
+/// Two poses that put the robot at the same place are one.
+bool ConstellationSearch::is_alike(const Pose2& a, const Pose2& b) const {
+  const Pose2 from_a = a * T_local_robot_;
+  const Pose2 from_b = b * T_local_robot_;
+  return std::hypot(from_a.x - from_b.x, from_a.y - from_b.y) <= alike_m &&
+         std::abs(wrap_angle(from_a.theta - from_b.theta)) <= alike_rad;
+}
+
+/// The best first.
+void ConstellationSearch::remember(const Hypothesis& hypothesis) {
+  const auto same = std::ranges::find_if(
+      hypotheses_, [&](const Hypothesis& h) { return is_alike(h.T_world_local, hypothesis.T_world_local); });
+  if (same != hypotheses_.end()) {
+    if (same->score < hypothesis.score) *same = hypothesis;
+  } else {
+    if (hypotheses_.size() == most_hypotheses) hypotheses_.pop_back();
+    hypotheses_.push_back(hypothesis);
+  }
+  std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
+}
+
+/// Each point with the nearest landmark, each landmark once.
+void ConstellationSearch::pair(const Pose2& T_world_local, std::vector<Pairing>& pairs) const {
+  struct Near {
+    double distance;
+    Pairing pairing;
+  };
+  std::vector<Near> all;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    grid_.find_near(T_world_local * points_[i], near_, 4, found_near_);
+    for (const LandmarkGrid::Near& near : found_near_) all.push_back({near.distance, {i, near.landmark}});
+  }
+  std::ranges::stable_sort(all, {}, &Near::distance);
+  pairs.clear();
+  for (const Near& near : all) {
+    const bool is_taken = std::ranges::any_of(pairs, [&](const Pairing& p) {
+      return p.around == near.pairing.around || p.landmark == near.pairing.landmark;
+    });
+    if (!is_taken) pairs.push_back(near.pairing);
+  }
+}
+
+/// Pairs and pose in turn, as long as more fits.
+Pose2 ConstellationSearch::climb(Pose2 T_world_local, std::vector<Pairing>& pairs) const {
+  pair(T_world_local, pairs);
+  for (int round = 0; round < climbs; ++round) {
+    std::vector<Eigen::Vector2d> from, to;
+    for (const Pairing& p : pairs) {
+      from.push_back(points_[p.around]);
+      to.push_back(grid_.position(p.landmark));
+    }
+    const std::optional<Pose2> fitted = rigid_fit(from, to);
+    if (!fitted) return T_world_local;
+    std::vector<Pairing> more;
+    pair(*fitted, more);
+    if (more.size() < pairs.size()) return T_world_local;
+    T_world_local = *fitted;
+    pairs = std::move(more);
+  }
+  return T_world_local;
+}
+
+std::optional<ConstellationSearch::Found> ConstellationSearch::best() const {
+  if (hypotheses_.empty() || corners_done_ < std::min(points_.size(), corners_before)) return std::nullopt;
+  const Hypothesis& first = hypotheses_.front();
+  for (const Hypothesis& other : hypotheses_) {
+    if (is_alike(other.T_world_local, first.T_world_local)) continue;
+    if (other.score > first.score - least_lead) return std::nullopt;
+  }
+  Found found{.T_world_local = first.T_world_local, .pairs = {}};
+  found.T_world_local = climb(first.T_world_local, found.pairs);
+  if (found.pairs.size() < fewest_fitting || !is_complete(found)) return std::nullopt;
+  found.density = density_at(found.T_world_local);
+  found.log_places = log_places(found.T_world_local);
+  return found;
+}
+
+/// Whether enough of what lies among the points that fit does so: of the points and of the landmarks, whichever is less.
+bool ConstellationSearch::is_complete(const Found& found) const {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the points that fit
+  for (const Pairing& pair : found.pairs) centre += points_[pair.around];
+  centre /= static_cast<double>(found.pairs.size());
+  double radius = 0.0;
+  for (const Pairing& pair : found.pairs) radius = std::max(radius, (points_[pair.around] - centre).norm());
+  const auto points = static_cast<std::size_t>(std::ranges::count_if(
+      points_, [&](const Eigen::Vector2d& p) { return (p - centre).norm() <= radius; }));
+  grid_.find_near(found.T_world_local * centre, radius, most_counted, found_near_);
+  const std::size_t fewer = std::min(points, std::max(found_near_.size(), found.pairs.size()));
+  return static_cast<double>(found.pairs.size()) >= least_share * static_cast<double>(fewer);
+}
+
+/// Around the robot. [1/m^2]
+double ConstellationSearch::density_at(const Pose2& T_world_local) const {
+  const Eigen::Vector2d here(T_local_robot_.x, T_local_robot_.y);
+  double radius = near_;
+  for (const Eigen::Vector2d& p : points_) radius = std::max(radius, (p - here).norm());
+  grid_.find_near(T_world_local * here, radius, most_counted, found_near_);
+  return static_cast<double>(std::max<std::size_t>(found_near_.size(), 1)) / (std::numbers::pi * radius * radius);
+}
+
+/// Those that put the robot no farther from where the filter believes it, and turn it no more, in units of 1 m^2 and
+/// 1 rad; at most those of the whole map.
+double ConstellationSearch::log_places(const Pose2& T_world_local) const {
+  const Pose2 there = T_world_local * T_local_robot_;
+  const double d = std::hypot(there.x - T_world_robot_.x, there.y - T_world_robot_.y) + near_;
+  const double turn = std::min(std::numbers::pi, std::abs(wrap_angle(there.theta - T_world_robot_.theta)) + 0.1);
+  const double near_belief = std::numbers::pi * d * d * 2.0 * turn;
+  const double all = 2.0 * std::numbers::pi * static_cast<double>(grid_.size()) / density_at(T_world_local);
+  return std::log(std::min(near_belief, all));
+}
+
+}  // namespace seif

@@ -1,0 +1,75 @@
+// Looks for what lies around the robot in a map whose landmarks have no names.
+//
+//   a triangle around the robot -> triangles of the map with the same sides -> a pose for each
+//     -> how many of the other landmarks are there, too? -> the best few poses, which are grown and compared
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "seif/association/constellation_index.hpp"
+#include "seif/association/landmark_grid.hpp"
+#include "seif/relocating/placement.hpp"
+#include "seif/types.hpp"
+
+namespace seif {
+
+/// Poses of a local map in the map, from the one scan to the next. The local map has a frame of its own.
+class ConstellationSearch {
+ public:
+  /// `near`: how near to a landmark something must be to be taken for it, before covariances are known [m].
+  ConstellationSearch(const LandmarkGrid& grid, const ConstellationIndex& index, double near)
+      : grid_(grid), index_(index), near_(near) {}
+
+  /// Goes on with the points of the local map that are around the robot now (p_local [m]), the nearest first.
+  /// `T_world_robot`: what the filter believes. The nearer to that, the fewer other places have to be excluded.
+  void step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot, const Pose2& T_world_robot);
+
+  struct Found {
+    Pose2 T_world_local;
+    std::vector<Pairing> pairs;  // of the points
+    double density = 0.0;        // of landmarks around there [1/m^2]
+    double log_places = 0.0;     // [nat] how many places of 1 m^2, times turns of 1 rad, are no farther from the belief
+  };
+  /// The best pose so far, if no other one is nearly as good, and enough has been looked at.
+  std::optional<Found> best() const;
+
+  /// [-] Poses looked at so far.
+  std::int64_t work() const { return work_; }
+
+ private:
+  struct Hypothesis {
+    Pose2 T_world_local;
+    std::size_t fitting = 0;  // [-] points with a landmark
+    double score = 0.0;       // [nat] how much better it is than chance
+  };
+
+  void look_from(std::size_t corner);
+  void try_triangle(const Triangle& triangle);
+  void try_pose(const Pose2& T_world_local);
+  std::size_t count(const Pose2& T_world_local, std::size_t at_least) const;
+  void remember(const Hypothesis& hypothesis);
+  bool is_alike(const Pose2& a, const Pose2& b) const;
+  void pair(const Pose2& T_world_local, std::vector<Pairing>& pairs) const;
+  Pose2 climb(Pose2 T_world_local, std::vector<Pairing>& pairs) const;
+  void rate(Hypothesis& hypothesis) const;
+  double density_at(const Pose2& T_world_local) const;
+  double log_places(const Pose2& T_world_local) const;
+  bool is_complete(const Found& found) const;
+
+  const LandmarkGrid& grid_;
+  const ConstellationIndex& index_;
+  double near_;
+  std::vector<Eigen::Vector2d> points_;
+  Pose2 T_local_robot_, T_world_robot_;
+  std::vector<Hypothesis> hypotheses_;  // the best, different ones, the best first
+  std::size_t next_corner_ = 0, corners_done_ = 0;
+  std::int64_t work_ = 0;
+  mutable std::vector<LandmarkGrid::Near> found_near_;
+};
+
+}  // namespace seif
