@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <cstdlib>
 #include "seif/association/associating_filter.hpp"
 
 #include <Eigen/Cholesky>
@@ -25,7 +27,6 @@ constexpr int never = -1'000'000;                 // [-] of these, for two that 
 // Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
-constexpr int recently = 3;            // [-] scans
 constexpr int fewest_compared = 3;     // [-] observations or landmarks, for a scan to say that it does not fit
 constexpr int scans_to_fit_again = 5;  // [-] after which only the search tells where the robot is
 
@@ -128,10 +129,10 @@ bool AssociatingFilter::breaks_off(const Scan& scan) const {
     seen.push_back(asked_[static_cast<std::size_t>(matcher_.match(i))]);
   }
   const auto missed = static_cast<int>(std::ranges::count_if(at_hand_, [&](LandmarkId id) {
-    return landmark(id).last_seen >= last_home_ - recently && std::ranges::find(seen, id) == seen.end() &&
-           should_see(id);
+    return landmark(id).last_seen == last_home_ && std::ranges::find(seen, id) == seen.end();
   }));
   const int comparable = std::min(observed, paired + missed);
+  if (getenv("DBG")) fprintf(stderr, "  home %d: observed %d paired %d missed %d\n", scan_, observed, paired, missed);
   return comparable >= fewest_compared && 2 * paired < comparable;
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "seif/association/constellation_index.hpp"
@@ -40,6 +41,7 @@ class ConstellationSearch {
 
   /// [-] Poses looked at so far.
   std::int64_t work() const { return work_; }
+  std::string debug() const { std::string t="corners "+std::to_string(corners_done_)+" work "+std::to_string(work_); for (auto&h:hypotheses_) {auto q=h.T_world_local*T_local_robot_; t+=" ["+std::to_string(h.fitting)+" "+std::to_string(h.score)+" "+std::to_string(q.x-T_world_robot_.x)+" "+std::to_string(q.y-T_world_robot_.y)+" "+std::to_string(q.theta-T_world_robot_.theta)+"]";} return t;}
 
  private:
   struct Hypothesis {

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace seif {
 namespace {
@@ -52,15 +51,6 @@ Eigen::MatrixXd covariance_of(const LocalBelief& belief, const std::vector<Pairi
   return Sigma;
 }
 
-/// Of the ellipses in which an observation is of the landmark with a probability of 0.99.
-double log_areas(const Eigen::MatrixXd& S) {
-  constexpr double gate = 9.21;  // [-] chi-square quantile, 2 degrees of freedom
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < S.rows(); i += 2)
-    sum += std::log(gate * std::numbers::pi) + 0.5 * std::log(Eigen::Matrix2d(S.block<2, 2>(i, i)).determinant());
-  return sum;
-}
-
 std::size_t worst_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& S) {
   std::size_t worst = 0;
   double farthest = -1.0;
@@ -103,7 +93,9 @@ bool fit(const LocalBelief& belief, const Surroundings& surroundings, Placement&
     Pose2& pose = placement.T_world_robot;
     pose = {pose.x + step(0), pose.y + step(1), wrap_angle(pose.theta + step(2))};
     placement.squared_distance = (b - A * step).squaredNorm();
-    placement.log_areas = log_areas(S);
+    const Eigen::Matrix3d of_pose = A.transpose() * A;
+    placement.log_density_of_poses =
+        L.matrixLLT().diagonal().array().log().sum() + 0.5 * std::log(of_pose.determinant());
     placement.worst = worst_of(all.v - all.J_x * step, S);
   }
   return std::isfinite(placement.squared_distance);

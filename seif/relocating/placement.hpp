@@ -22,7 +22,9 @@ struct Placement {
   std::vector<Pairing> pairs;
   double squared_distance = 0.0;  // [-] v' S^-1 v there, with 2 pairs - 3 degrees of freedom
   std::size_t worst = 0;          // the pair that fits least
-  double log_areas = 0.0;         // [nat] sum over the pairs: log of the area in which a landmark would fit [m^2]
+  /// [nat] log sqrt(det S det(J_x' S^-1 J_x)): of all places that 2 pairs coordinates could have, what a pose of 1 m^2 and
+  /// 1 rad covers for each unit of the residuals' space.
+  double log_density_of_poses = 0.0;
 };
 
 /// From two points in the frame of the robot, and where they are in the world.

@@ -1,7 +1,10 @@
 #include "seif/relocating/unnamed_search.hpp"
+#include <cstdio>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "seif/estimator.hpp"
@@ -45,7 +48,11 @@ void UnnamedSearch::keep_up(int scan) {
   }
 }
 
+/// What has just joined is what the robot sees, so it counts at once.
 void UnnamedSearch::begin() {
+  for (; next_young_ < young_.size(); ++next_young_) {
+    if (grid_->has(young_[next_young_].landmark)) index_->add(*grid_, young_[next_young_].landmark, reach_);
+  }
   local_.begin();
   search_.emplace(*grid_, *index_, near_);
 }
@@ -65,6 +72,8 @@ std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, co
   search_->step(points, T_local_robot, T_world_robot);
   const std::optional<ConstellationSearch::Found> found = search_->best();
   Placement placement;
+  if (getenv("DBG")) fprintf(stderr,"%.1f points %zu %s\n", scan.t, points.size(), search_->debug().c_str());
+  if (found && getenv("DBG")) { Placement p2; bool ok=place(*found,p2,scan.t); fprintf(stderr,"   found %zu pairs; kept %d %zu chance %.1f d2 %.1f dens %.3f logpl %.1f\n", found->pairs.size(), ok, p2.pairs.size(), log_chance(*found,p2), p2.squared_distance, found->density, found->log_places);}
   if (!found || !place(*found, placement, scan.t) || log_chance(*found, placement) > most_log_chance_)
     return std::nullopt;
   return named(placement, T_world_robot);
@@ -81,18 +90,18 @@ bool UnnamedSearch::place(const ConstellationSearch::Found& found, Placement& pl
   return fit_most(belief_, surroundings_, std::max(fewest_kept, share), placement);
 }
 
-/// [nat] That somewhere a match as good as this comes about by chance; an upper bound. m of k points have found a landmark
-/// in areas a_i, of landmarks that lie there with a density. The pose uses up two of the pairs. Of different poses there
-/// are as many as places with the mean area, and turns that move what is farthest by as much.
+/// [nat] How many matches as good as this are to be expected by chance: an upper bound of the probability that there is
+/// one. Of k points, m lie at landmarks of the map, scattered with a density. The coordinates of m landmarks that some pose
+/// fits with v' S^-1 v <= q fill, of their space of 2m dimensions, a tube around all poses; it is as thick as a ball of
+/// 2m - 3 dimensions.
 double UnnamedSearch::log_chance(const ConstellationSearch::Found& found, const Placement& placement) const {
   const auto k = static_cast<double>(surroundings_.size());
   const auto m = static_cast<double>(placement.pairs.size());
-  const double log_area = placement.log_areas / m;
-  double radius = near_;
-  for (const Pairing& pair : placement.pairs) radius = std::max(radius, surroundings_.at(pair.around).norm());
-  const double log_poses = found.log_places - log_area + std::log(radius) - 0.5 * log_area;
+  const double dimensions = 2.0 * m - 3.0;
+  const double q = std::max(placement.squared_distance, dimensions);
+  const double log_ball = 0.5 * dimensions * std::log(std::numbers::pi * q) - std::lgamma(0.5 * dimensions + 1.0);
   const double log_choices = std::lgamma(k + 1.0) - std::lgamma(m + 1.0) - std::lgamma(k - m + 1.0);
-  return std::max(log_poses, 0.0) + log_choices + (m - 2.0) * std::min(0.0, std::log(found.density) + log_area);
+  return log_choices + m * std::log(found.density) + found.log_places + placement.log_density_of_poses + log_ball;
 }
 
 Relocation UnnamedSearch::named(const Placement& placement, const Pose2& T_world_robot) const {
