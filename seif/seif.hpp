@@ -115,7 +115,7 @@ class Seif final : public InformationFilter {
   StartFrame start_;
   std::unique_ptr<MeanKeeper> keeper_;
   CondensationTree* tree_ = nullptr;  // of the keeper, if it has one
-  AskedOfFilter asked_;  // by belief_
+  AskedOfFilter asked_;               // by belief_
   std::unique_ptr<LocalBelief> belief_;
   double anchoring_ = 0.0;  // [nat]
   std::int64_t gated_ = 0, weakened_ = 0, relocations_ = 0;

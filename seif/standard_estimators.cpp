@@ -135,7 +135,8 @@ std::unique_ptr<Estimator> completed(const EstimatorSetup& setup, const Struct& 
   LocalMap::MakeFilter make_local;
   if (relocates) {
     make_local = [filter_options, associating = choice.options](const EstimatorSetup& local) {
-      return std::make_unique<AssociatingFilter>(std::make_unique<Filter>(local, filter_options), local, associating);
+      return std::make_unique<AssociatingFilter>(std::make_unique<Filter>(local, filter_options), local,
+                                                 associating);
     };
   }
   return std::make_unique<AssociatingFilter>(std::move(filter), setup, choice.options, make_local);

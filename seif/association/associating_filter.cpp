@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
 #include "seif/association/associating_filter.hpp"
 
 #include <Eigen/Cholesky>
@@ -27,7 +25,7 @@ constexpr int never = -1'000'000;                 // [-] of these, for two that 
 // Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
-constexpr int fewest_compared = 3;     // [-] observations or landmarks, for a scan to say that it does not fit
+constexpr int fewest_compared = 2;  // [-] observations or landmarks, for a scan to say that it does not fit
 constexpr int scans_to_fit_again = 5;  // [-] after which only the search tells where the robot is
 
 double largest_variance(const Eigen::Matrix2d& covariance) {
@@ -132,7 +130,6 @@ bool AssociatingFilter::breaks_off(const Scan& scan) const {
     return landmark(id).last_seen == last_home_ && std::ranges::find(seen, id) == seen.end();
   }));
   const int comparable = std::min(observed, paired + missed);
-  if (getenv("DBG")) fprintf(stderr, "  home %d: observed %d paired %d missed %d\n", scan_, observed, paired, missed);
   return comparable >= fewest_compared && 2 * paired < comparable;
 }
 
@@ -397,7 +394,8 @@ Counts AssociatingFilter::counts() const {
 
 std::size_t AssociatingFilter::memory_bytes() const {
   return filter_->memory_bytes() + landmarks_.memory_bytes() + tentative_.memory_bytes() +
-         (grid_ ? grid_->memory_bytes() : 0) + (search_ ? search_->memory_bytes() : 0) + sizeof(double) * static_cast<std::size_t>(Sigma_.size());
+         (grid_ ? grid_->memory_bytes() : 0) + (search_ ? search_->memory_bytes() : 0) +
+         sizeof(double) * static_cast<std::size_t>(Sigma_.size());
 }
 
 void AssociatingFilter::landmarks(std::span<const LandmarkId> landmarks,

@@ -114,9 +114,9 @@ class AssociatingFilter final : public FilterAround {
   ChunkedArray<Landmark> landmarks_;  // by name
   std::vector<Suspicion> suspicions_;
   std::optional<UnnamedSearch> search_;
-  int last_home_ = 0;                    // the last scan that fitted
-  int broken_ = 0, fitting_ = 0;         // [-] scans in a row that do not fit, or fit again
-  std::int64_t held_back_ = 0;           // [-] observations
+  int last_home_ = 0;             // the last scan that fitted
+  int broken_ = 0, fitting_ = 0;  // [-] scans in a row that do not fit, or fit again
+  std::int64_t held_back_ = 0;    // [-] observations
   int scan_ = 0;
   double wander_ = 0.0;                        // [m^2] since the last scan
   double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]

@@ -5,7 +5,8 @@
 
 namespace seif {
 
-Triangle triangle_of(const std::array<int, 3>& points, const std::array<Eigen::Vector2d, 3>& at, double least) {
+Triangle triangle_of(const std::array<int, 3>& points, const std::array<Eigen::Vector2d, 3>& at,
+                     double least) {
   const Eigen::Vector2d ab = at[1] - at[0];
   const Eigen::Vector2d ac = at[2] - at[0];
   const double twice_area = ab.x() * ac.y() - ab.y() * ac.x();

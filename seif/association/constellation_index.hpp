@@ -16,13 +16,14 @@ namespace seif {
 
 /// Three points counter-clockwise, the longest side from the first to the second.
 struct Triangle {
-  std::array<int, 3> corners = {};                         // numbers of points
-  Eigen::Vector3d sides = Eigen::Vector3d::Zero();         // [m] from each corner to the next
-  bool is_sharp = false;                                   // no side and no height is so short that noise hides it
+  std::array<int, 3> corners = {};                  // numbers of points
+  Eigen::Vector3d sides = Eigen::Vector3d::Zero();  // [m] from each corner to the next
+  bool is_sharp = false;                            // no side and no height is so short that noise hides it
 };
 
 /// `least`: of sides and heights [m].
-Triangle triangle_of(const std::array<int, 3>& points, const std::array<Eigen::Vector2d, 3>& at, double least);
+Triangle triangle_of(const std::array<int, 3>& points, const std::array<Eigen::Vector2d, 3>& at,
+                     double least);
 
 class ConstellationIndex {
  public:
@@ -41,7 +42,8 @@ class ConstellationIndex {
   template <class Visit>
   void for_each_like(const Eigen::Vector3d& sides, Visit&& visit) const {
     std::array<std::array<std::int64_t, 2>, 3> bins;
-    for (int i = 0; i < 3; ++i) bins[static_cast<std::size_t>(i)] = {bin(sides(i) - 0.5 * width_), bin(sides(i) + 0.5 * width_)};
+    for (int i = 0; i < 3; ++i)
+      bins[static_cast<std::size_t>(i)] = {bin(sides(i) - 0.5 * width_), bin(sides(i) + 0.5 * width_)};
     for (const std::int64_t a : bins[0])
       for (const std::int64_t b : bins[1])
         for (const std::int64_t c : bins[2])

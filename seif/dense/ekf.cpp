@@ -2,10 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -184,77 +182,64 @@ bool Ekf::update_equal() {
   return true;
 }
 
-/// The surroundings as one observation z = h(x, m) of covariance C. Of the unknowns f nothing is known beforehand: the
-/// pose, unless it is kept, and the landmarks that are new. With S = J Sigma J' + C = L L' of the others and
-/// L^-1 J_f = [Q_1 Q_2] [R; 0]:
-///   mu += W Q_2 Q_2' L^-1 v and Sigma -= W Q_2 Q_2' W', with W = Sigma J' L^-T, for the others;
-///   f += G L^-1 v with G = R^-1 Q_1', of covariance R^-1 R^-T, and -G W' with the others.
-/// That is the limit of an EKF whose prior of f becomes infinitely wide.
+/// The surroundings as one observation of all their landmarks. Nothing is known beforehand of those that are new, nor of
+/// the pose, unless it is kept.
 bool Ekf::update_relocation() {
   const Relocation to = *std::exchange(relocation_, std::nullopt);
-  const auto k = static_cast<int>(to.surroundings.size());
-  const int known_size = size();
+  const int known = size();
+  std::vector<int> flat;
   if (!to.keeps_pose) {
     set_pose(to.T_world_robot);
-    Sigma_.topLeftCorner(known_size, 3).setZero();
+    Sigma_.topLeftCorner(known, 3).setZero();
+    flat = {0, 1, 2};
   }
   for (std::size_t i = 0; i < to.surroundings.size(); ++i) {
     if (!index_.find(to.surroundings.landmarks[i]))
       append(to.surroundings.landmarks[i], to.T_world_robot * to.surroundings.at(i));
   }
-  const int n = size();
-  Sigma_.block(known_size, 0, n - known_size, n).setZero();
-  const int flat_pose = to.keeps_pose ? 0 : 3;
-  std::vector<int> flat(static_cast<std::size_t>(flat_pose + n - known_size));
-  std::iota(flat.begin(), flat.begin() + flat_pose, 0);
-  std::iota(flat.begin() + flat_pose, flat.end(), known_size);
+  Sigma_.block(known, 0, size() - known, size()).setZero();
+  for (int row = known; row < size(); ++row) flat.push_back(row);
 
-  Eigen::MatrixXd W(n, 2 * k);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * k, n);
-  Eigen::VectorXd v(2 * k);
+  const auto q = static_cast<Eigen::Index>(2 * to.surroundings.size());
+  Eigen::MatrixXd Sigma_J(size(), q);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(q, size());
+  Eigen::VectorXd v(q);
   gather_columns<3>(0, 0);
-  for (int i = 0; i < k; ++i) {
-    const auto number = static_cast<std::size_t>(i);
-    const int row = row_of(index_.find(to.surroundings.landmarks[number]).value());
+  for (Eigen::Index at = 0; at < q; at += 2) {
+    const auto i = static_cast<std::size_t>(at / 2);
+    const int row = row_of(index_.find(to.surroundings.landmarks[i]).value());
     const ExpectedPlace expected = expect_place(pose(), mu_.segment<2>(row));
     gather_columns<2>(row, 3);
-    J.block<2, 3>(2 * i, 0) = expected.J_x;
-    J.block<2, 2>(2 * i, row) = expected.J_m;
-    W.middleCols<2>(2 * i) = columns_.topRows(n).leftCols<3>() * expected.J_x.transpose() +
-                             columns_.topRows(n).rightCols<2>() * expected.J_m.transpose();
-    v.segment<2>(2 * i) = to.surroundings.at(number) - expected.p_robot;
+    J.block<2, 3>(at, 0) = expected.J_x;
+    J.block<2, 2>(at, row) = expected.J_m;
+    Sigma_J.middleCols<2>(at) =
+        columns_.topRows(size()) * J(Eigen::seqN(at, 2), {0, 1, 2, row, row + 1}).transpose();
+    v.segment<2>(at) = to.surroundings.at(i) - expected.p_robot;
   }
-  const Eigen::LLT<Eigen::MatrixXd> S(J * W + to.surroundings.covariance);
-  if (S.info() != Eigen::Success) return false;
-  S.matrixL().solveInPlace(v);
-  S.matrixU().solveInPlace<Eigen::OnTheRight>(W);
-  Eigen::MatrixXd J_f = J(Eigen::all, flat);
-  S.matrixL().solveInPlace(J_f);
-  const auto f = J_f.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(J_f);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  const Eigen::MatrixXd R = qr.matrixQR().topRows(f).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd G = R.triangularView<Eigen::Upper>().solve(Q.leftCols(f).transpose());
-  const Eigen::MatrixXd G_W = G * W.transpose();  // (f x n)
+  const auto update =
+      update_with_flat_prior(std::move(Sigma_J), J, to.surroundings.covariance, std::move(v), flat);
+  if (!update) return false;
+  apply(*update, flat);
+  ++relocations_;
+  return true;
+}
 
-  const Eigen::MatrixXd W_rest = W * Q.rightCols(2 * k - f);
-  mu_.head(n) += W_rest * (Q.rightCols(2 * k - f).transpose() * v);
-  downdate_(Sigma_, W_rest);
-  const Eigen::VectorXd step = G * v;
-  const Eigen::MatrixXd P = G * G.transpose();
+void Ekf::apply(const FlatPriorUpdate& update, std::span<const int> flat) {
+  const int n = size();
+  mu_.head(n) += update.step;
+  downdate_(Sigma_, update.W);
+  const auto f = static_cast<Eigen::Index>(flat.size());
   for (Eigen::Index a = 0; a < f; ++a) {
     const int row = flat[static_cast<std::size_t>(a)];
-    mu_(row) += step(a);
-    for (int j = 0; j < n; ++j) Sigma_(std::max(row, j), std::min(row, j)) = -G_W(a, j);
+    mu_(row) += update.step_f(a);
+    for (int j = 0; j < n; ++j) Sigma_(std::max(row, j), std::min(row, j)) = update.cross(a, j);
   }
   for (Eigen::Index a = 0; a < f; ++a) {
     for (Eigen::Index b = 0; b <= a; ++b)
-      Sigma_(flat[static_cast<std::size_t>(a)], flat[static_cast<std::size_t>(b)]) = P(a, b);
+      Sigma_(flat[static_cast<std::size_t>(a)], flat[static_cast<std::size_t>(b)]) = update.P(a, b);
   }
   mu_(2) = wrap_angle(mu_(2));
   blocks_touched_ += std::int64_t{landmark_count() + 1} * (landmark_count() + 2) / 2;
-  ++relocations_;
-  return true;
 }
 
 void Ekf::equate(LandmarkId a, LandmarkId b) { equal_.emplace_back(a, b); }

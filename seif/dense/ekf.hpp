@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "seif/association/local_belief.hpp"
+#include "seif/dense/flat_prior.hpp"
 #include "seif/dense/symmetric_downdate.hpp"
 #include "seif/estimator.hpp"
 #include "seif/landmark_index.hpp"
@@ -85,6 +86,7 @@ class Ekf final : public Estimator, public LocalBelief {
   [[nodiscard]] bool apply_gain(int observed);
   [[nodiscard]] bool update_equal();
   [[nodiscard]] bool update_relocation();
+  void apply(const FlatPriorUpdate& update, std::span<const int> flat);
   void append(LandmarkId landmark, const Eigen::Vector2d& mean);
   void add_landmark(const Observation& observation);
   void reserve(int landmarks);

@@ -10,9 +10,10 @@
 namespace seif {
 namespace {
 
-constexpr std::int64_t most_poses = 2000;   // [-] that one scan looks at, after which no further corner is begun
+constexpr std::int64_t most_poses =
+    2000;  // [-] that one scan looks at, after which no further corner is begun
 constexpr std::size_t most_hypotheses = 8;  // [-] that are kept
-constexpr std::size_t fewest_fitting = 4;   // [-] points of a pose that is remembered
+constexpr std::size_t fewest_fitting = 3;   // [-] points of a pose that is remembered
 constexpr std::size_t corners_before = 8;   // [-] that must have been looked from before a pose is told
 constexpr double least_share = 0.6;         // [-] of what lies among the points that fit
 constexpr double least_lead = 9.2;          // [nat] over any other pose
@@ -28,6 +29,10 @@ void ConstellationSearch::step(const std::vector<Eigen::Vector2d>& points, const
   points_ = points;
   T_local_robot_ = T_local_robot;
   T_world_robot_ = T_world_robot;
+  radius_ = near_;
+  for (const Eigen::Vector2d& p : points_)
+    radius_ = std::max(radius_, (p - Eigen::Vector2d(T_local_robot.x, T_local_robot.y)).norm());
+  density_ = static_cast<double>(points_.size()) / (std::numbers::pi * radius_ * radius_);
   for (Hypothesis& hypothesis : hypotheses_) rate(hypothesis);
   std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
   if (points_.size() < fewest_fitting) return;
@@ -44,7 +49,9 @@ void ConstellationSearch::look_from(std::size_t corner) {
   std::vector<int> others(points_.size());
   std::iota(others.begin(), others.end(), 0);
   std::erase(others, static_cast<int>(corner));
-  const auto distance = [&](int i) { return (points_[static_cast<std::size_t>(i)] - points_[corner]).squaredNorm(); };
+  const auto distance = [&](int i) {
+    return (points_[static_cast<std::size_t>(i)] - points_[corner]).squaredNorm();
+  };
   std::ranges::stable_sort(others, {}, distance);
   if (others.size() > ConstellationIndex::neighbours) others.resize(ConstellationIndex::neighbours);
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -76,18 +83,23 @@ void ConstellationSearch::try_triangle(const Triangle& triangle) {
 }
 
 void ConstellationSearch::try_pose(const Pose2& T_world_local) {
-  if (count(T_world_local, fewest_fitting) < fewest_fitting) return;
+  constexpr std::size_t most_behind = 4;  // [-] points: with fewer a pose does not become one of the best
+  const bool is_full = hypotheses_.size() == most_hypotheses;
+  const std::size_t worst = is_full ? hypotheses_.back().fitting : 0;
+  const std::size_t needed = std::max(fewest_fitting, worst > most_behind ? worst - most_behind : 0);
+  if (count(T_world_local, needed) < needed) return;
   Hypothesis hypothesis{.T_world_local = T_world_local};
   rate(hypothesis);
-  if (hypotheses_.size() < most_hypotheses || hypothesis.score > hypotheses_.back().score) remember(hypothesis);
+  if (!is_full || hypothesis.score > hypotheses_.back().score) remember(hypothesis);
 }
 
-/// Were the landmarks scattered at random, as densely as there, a point would have one within near_ with probability
+/// Were the landmarks scattered at random, as densely as here, a point would have one within near_ with probability
 /// p = 1 - exp(-density pi near_^2). The fewer places are no farther away, the less is it chance.
 void ConstellationSearch::rate(Hypothesis& hypothesis) const {
   hypothesis.fitting = count(hypothesis.T_world_local, 0);
-  const double p = 1.0 - std::exp(-density_at(hypothesis.T_world_local) * std::numbers::pi * near_ * near_);
-  hypothesis.score = -static_cast<double>(hypothesis.fitting) * std::log(p) - log_places(hypothesis.T_world_local);
+  const double p = 1.0 - std::exp(-density_ * std::numbers::pi * near_ * near_);
+  hypothesis.score =
+      -static_cast<double>(hypothesis.fitting) * std::log(p) - log_places(hypothesis.T_world_local, density_);
 }
 
 /// How many points have a landmark; 0 as soon as fewer than `at_least` can have.
@@ -174,7 +186,7 @@ std::optional<ConstellationSearch::Found> ConstellationSearch::best() const {
   found.T_world_local = climb(first.T_world_local, found.pairs);
   if (found.pairs.size() < fewest_fitting || !is_complete(found)) return std::nullopt;
   found.density = density_at(found.T_world_local);
-  found.log_places = log_places(found.T_world_local);
+  found.log_places = log_places(found.T_world_local, found.density);
   return found;
 }
 
@@ -192,23 +204,24 @@ bool ConstellationSearch::is_complete(const Found& found) const {
   return static_cast<double>(found.pairs.size()) >= least_share * static_cast<double>(fewer);
 }
 
-/// Around the robot. [1/m^2]
+/// Of the map around the robot. [1/m^2]
 double ConstellationSearch::density_at(const Pose2& T_world_local) const {
-  const Eigen::Vector2d here(T_local_robot_.x, T_local_robot_.y);
-  double radius = near_;
-  for (const Eigen::Vector2d& p : points_) radius = std::max(radius, (p - here).norm());
-  grid_.find_near(T_world_local * here, radius, most_counted, found_near_);
-  return static_cast<double>(std::max<std::size_t>(found_near_.size(), 1)) / (std::numbers::pi * radius * radius);
+  grid_.find_near(T_world_local * Eigen::Vector2d(T_local_robot_.x, T_local_robot_.y), radius_, most_counted,
+                  found_near_);
+  return static_cast<double>(std::max<std::size_t>(found_near_.size(), 1)) /
+         (std::numbers::pi * radius_ * radius_);
 }
 
 /// Those that put the robot no farther from where the filter believes it, and turn it no more, in units of 1 m^2 and
 /// 1 rad; at most those of the whole map.
-double ConstellationSearch::log_places(const Pose2& T_world_local) const {
+double ConstellationSearch::log_places(const Pose2& T_world_local, double density) const {
+  constexpr double least_turn = 0.1;  // [rad]
   const Pose2 there = T_world_local * T_local_robot_;
   const double d = std::hypot(there.x - T_world_robot_.x, there.y - T_world_robot_.y) + near_;
-  const double turn = std::min(std::numbers::pi, std::abs(wrap_angle(there.theta - T_world_robot_.theta)) + 0.1);
+  const double turn =
+      std::min(std::numbers::pi, std::abs(wrap_angle(there.theta - T_world_robot_.theta)) + least_turn);
   const double near_belief = std::numbers::pi * d * d * 2.0 * turn;
-  const double all = 2.0 * std::numbers::pi * static_cast<double>(grid_.size()) / density_at(T_world_local);
+  const double all = 2.0 * std::numbers::pi * static_cast<double>(grid_.size()) / density;
   return std::log(std::min(near_belief, all));
 }
 

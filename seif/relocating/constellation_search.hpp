@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "seif/association/constellation_index.hpp"
@@ -28,20 +27,21 @@ class ConstellationSearch {
 
   /// Goes on with the points of the local map that are around the robot now (p_local [m]), the nearest first.
   /// `T_world_robot`: what the filter believes. The nearer to that, the fewer other places have to be excluded.
-  void step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot, const Pose2& T_world_robot);
+  void step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot,
+            const Pose2& T_world_robot);
 
   struct Found {
     Pose2 T_world_local;
     std::vector<Pairing> pairs;  // of the points
     double density = 0.0;        // of landmarks around there [1/m^2]
-    double log_places = 0.0;     // [nat] how many places of 1 m^2, times turns of 1 rad, are no farther from the belief
+    double log_places =
+        0.0;  // [nat] how many places of 1 m^2, times turns of 1 rad, are no farther from the belief
   };
   /// The best pose so far, if no other one is nearly as good, and enough has been looked at.
   std::optional<Found> best() const;
 
   /// [-] Poses looked at so far.
   std::int64_t work() const { return work_; }
-  std::string debug() const { std::string t="corners "+std::to_string(corners_done_)+" work "+std::to_string(work_); for (auto&h:hypotheses_) {auto q=h.T_world_local*T_local_robot_; t+=" ["+std::to_string(h.fitting)+" "+std::to_string(h.score)+" "+std::to_string(q.x-T_world_robot_.x)+" "+std::to_string(q.y-T_world_robot_.y)+" "+std::to_string(q.theta-T_world_robot_.theta)+"]";} return t;}
 
  private:
   struct Hypothesis {
@@ -60,7 +60,7 @@ class ConstellationSearch {
   Pose2 climb(Pose2 T_world_local, std::vector<Pairing>& pairs) const;
   void rate(Hypothesis& hypothesis) const;
   double density_at(const Pose2& T_world_local) const;
-  double log_places(const Pose2& T_world_local) const;
+  double log_places(const Pose2& T_world_local, double density) const;
   bool is_complete(const Found& found) const;
 
   const LandmarkGrid& grid_;
@@ -68,6 +68,8 @@ class ConstellationSearch {
   double near_;
   std::vector<Eigen::Vector2d> points_;
   Pose2 T_local_robot_, T_world_robot_;
+  double radius_ = 0.0;                 // of the points around the robot [m]
+  double density_ = 0.0;                // of them [1/m^2]
   std::vector<Hypothesis> hypotheses_;  // the best, different ones, the best first
   std::size_t next_corner_ = 0, corners_done_ = 0;
   std::int64_t work_ = 0;

@@ -9,16 +9,16 @@
 namespace seif {
 namespace {
 
-constexpr int fit_rounds = 4;                // [-] of Gauss-Newton
+constexpr int fit_rounds = 4;            // [-] of Gauss-Newton
 constexpr double agreement = 1e-6;       // [-] probability that right pairs are taken for wrong ones
 constexpr double pose_agreement = 1e-6;  // [-] and that a pose that is right is forgotten
 
 /// The pairs, linearised at a pose.
 struct Linearised {
-  Eigen::VectorXd v;                            // (2m)
+  Eigen::VectorXd v;                             // (2m)
   Eigen::Matrix<double, Eigen::Dynamic, 3> J_x;  // (2m x 3)
-  Eigen::MatrixXd J_m;                          // (2m x 2m), block-diagonal
-  Eigen::MatrixXd C;                            // (2m x 2m) of the surroundings
+  Eigen::MatrixXd J_m;                           // (2m x 2m), block-diagonal
+  Eigen::MatrixXd C;                             // (2m x 2m) of the surroundings
 };
 
 Linearised linearise(const LocalBelief& belief, const Pose2& T_world_robot, const Surroundings& surroundings,
@@ -112,11 +112,11 @@ bool fit_most(const LocalBelief& belief, const Surroundings& surroundings, std::
   return false;
 }
 
-Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot, const Surroundings& surroundings,
-                         const Placement& placement, const std::vector<LandmarkId>& names,
-                         const std::vector<bool>& is_used) {
-  const double of_pose =
-      squared_distance_from_belief(belief, T_world_robot, surroundings, placement.pairs) - placement.squared_distance;
+Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot,
+                         const Surroundings& surroundings, const Placement& placement,
+                         const std::vector<LandmarkId>& names, const std::vector<bool>& is_used) {
+  const double of_pose = squared_distance_from_belief(belief, T_world_robot, surroundings, placement.pairs) -
+                         placement.squared_distance;
   Relocation relocation{.T_world_robot = placement.T_world_robot,
                         .surroundings = {},
                         .keeps_pose = of_pose <= chi_square_gate(2, pose_agreement)};

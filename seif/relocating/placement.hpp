@@ -43,9 +43,9 @@ Pose2 pose_from(const Eigen::Vector2d& a_robot, const Eigen::Vector2d& b_robot,
 
 /// What the filter is told: the pose is kept if the surroundings agree with it, T_world_robot as the filter believes it.
 /// `names` and `is_used`: of each of the surroundings.
-Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot, const Surroundings& surroundings,
-                         const Placement& placement, const std::vector<LandmarkId>& names,
-                         const std::vector<bool>& is_used);
+Relocation relocation_to(const LocalBelief& belief, const Pose2& T_world_robot,
+                         const Surroundings& surroundings, const Placement& placement,
+                         const std::vector<LandmarkId>& names, const std::vector<bool>& is_used);
 
 /// v' S^-1 v if the pose is what the filter believes, with 2 pairs degrees of freedom.
 double squared_distance_from_belief(const LocalBelief& belief, const Pose2& T_world_robot,

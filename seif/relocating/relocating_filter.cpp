@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -14,20 +15,21 @@ namespace {
 constexpr double contradiction = 16.0 * 27.63;
 /// [-] Within this v' Q^-1 v by the sensor's noise alone nothing has to be computed.
 constexpr double near_enough = 27.63;
-constexpr std::size_t most_around = 24;   // [-] landmarks of the local map that are used
-constexpr std::size_t most_bases = 12;    // [-] of these, for hypotheses
-constexpr int fewest_scans = 2;           // [-] of a local map
-constexpr int scans_until_trusted = 3;    // [-] in a row that fit again
+constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are used
+constexpr std::size_t most_bases = 12;   // [-] of these, for hypotheses
+constexpr int fewest_scans = 2;          // [-] of a local map
+constexpr int scans_until_trusted = 3;   // [-] in a row that fit again
 /// Two landmarks that agree lie within this of where they should, before their covariances are known.
-constexpr double rough_m = 0.5;           // [m]
-constexpr double rough = 0.1;             // [-] of their distance
+constexpr double rough_m = 0.5;  // [m]
+constexpr double rough = 0.1;    // [-] of their distance
 constexpr std::size_t fewest_vanished = 3;
 constexpr double sure_reach = 0.7;
 constexpr double sure_bearing = 0.8;
 
 LocalBelief& belief_of(Estimator& filter) {
   if (LocalBelief* belief = filter.local_belief()) return *belief;
-  throw std::invalid_argument("relocate needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
+  throw std::invalid_argument(
+      "relocate needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
 }
 
 }  // namespace
@@ -108,13 +110,15 @@ RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
 bool RelocatingFilter::has_vanished(const Scan& scan) {
   if (scan.observations.size() < 2 || last_seen_.size() < fewest_vanished) return false;
   for (const Observation& z : scan.observations) {
-    if (std::ranges::find(last_seen_, z.landmark) != last_seen_.end() || belief_.is_at_hand(z.landmark)) return false;
+    if (std::ranges::find(last_seen_, z.landmark) != last_seen_.end() || belief_.is_at_hand(z.landmark))
+      return false;
   }
   const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
   const auto is_in_view = [&](LandmarkId id) {
     if (!belief_.is_at_hand(id)) return false;
     const Eigen::Vector2d p = T_sensor_world * belief_.mean_of(id);
-    return p.norm() <= sure_reach * reach_ && std::abs(std::atan2(p.y(), p.x())) <= sure_bearing * widest_bearing_;
+    return p.norm() <= sure_reach * reach_ &&
+           std::abs(std::atan2(p.y(), p.x())) <= sure_bearing * widest_bearing_;
   };
   return std::cmp_greater_equal(std::ranges::count_if(last_seen_, is_in_view), fewest_vanished);
 }

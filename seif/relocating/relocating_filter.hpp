@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,8 @@ namespace seif {
 class RelocatingFilter final : public FilterAround {
  public:
   /// `make_local` makes filters for the local maps. Throws std::invalid_argument if the filter has no local belief.
-  RelocatingFilter(std::unique_ptr<Estimator> filter, LocalMap::MakeFilter make_local, const EstimatorSetup& setup);
+  RelocatingFilter(std::unique_ptr<Estimator> filter, LocalMap::MakeFilter make_local,
+                   const EstimatorSetup& setup);
 
   void motion_update(const Odometry& odometry) override;
   void measurement_update(const Scan& scan, const StageDone& done) override;

@@ -1,6 +1,4 @@
 #include "seif/relocating/unnamed_search.hpp"
-#include <cstdio>
-#include <cstdlib>
 
 #include <algorithm>
 #include <cmath>
@@ -12,18 +10,18 @@
 namespace seif {
 namespace {
 
-constexpr int settled_after = 15;          // [-] scans until a landmark's place counts
-constexpr std::size_t most_settled = 2;    // [-] landmarks that one scan adds to the index
-constexpr double widths = 4.0;             // [-] of the index, over the standard deviation of a sighting
-constexpr double nears = 5.0;              // [-] the same, of how near something must be to a landmark
-constexpr std::size_t most_points = 24;    // [-] landmarks of the local map that are used
-constexpr double kept_share = 0.75;        // [-] of the pairs that must agree by the filter's covariance
-constexpr std::size_t fewest_kept = 4;     // [-] and at least so many
+constexpr int settled_after = 15;        // [-] scans until a landmark's place counts
+constexpr std::size_t most_settled = 2;  // [-] landmarks that one scan adds to the index
+constexpr double widths = 4.0;           // [-] of the index, over the standard deviation of a sighting
+constexpr double nears = 5.0;            // [-] the same, of how near something must be to a landmark
+constexpr std::size_t most_points = 24;  // [-] landmarks of the local map that are used
+constexpr double kept_share = 0.75;      // [-] of the pairs that must agree by the filter's covariance
+constexpr std::size_t fewest_kept = 3;   // [-] and at least so many
 
 }  // namespace
 
-UnnamedSearch::UnnamedSearch(LocalBelief& belief, LocalMap::MakeFilter make_local, const Pose2& T_robot_sensor,
-                             double most_chance)
+UnnamedSearch::UnnamedSearch(LocalBelief& belief, LocalMap::MakeFilter make_local,
+                             const Pose2& T_robot_sensor, double most_chance)
     : belief_(belief),
       local_(std::move(make_local), T_robot_sensor),
       most_log_chance_(std::log(most_chance)) {}
@@ -68,12 +66,11 @@ std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, co
   local_.read(scan.t, most_points, surroundings_);
   const Pose2 T_local_robot = local_.filter().pose();
   std::vector<Eigen::Vector2d> points;
-  for (std::size_t i = 0; i < surroundings_.size(); ++i) points.push_back(T_local_robot * surroundings_.at(i));
+  for (std::size_t i = 0; i < surroundings_.size(); ++i)
+    points.push_back(T_local_robot * surroundings_.at(i));
   search_->step(points, T_local_robot, T_world_robot);
   const std::optional<ConstellationSearch::Found> found = search_->best();
   Placement placement;
-  if (getenv("DBG")) fprintf(stderr,"%.1f points %zu %s\n", scan.t, points.size(), search_->debug().c_str());
-  if (found && getenv("DBG")) { Placement p2; bool ok=place(*found,p2,scan.t); fprintf(stderr,"   found %zu pairs; kept %d %zu chance %.1f d2 %.1f dens %.3f logpl %.1f\n", found->pairs.size(), ok, p2.pairs.size(), log_chance(*found,p2), p2.squared_distance, found->density, found->log_places);}
   if (!found || !place(*found, placement, scan.t) || log_chance(*found, placement) > most_log_chance_)
     return std::nullopt;
   return named(placement, T_world_robot);
@@ -86,7 +83,8 @@ bool UnnamedSearch::place(const ConstellationSearch::Found& found, Placement& pl
   std::vector<LandmarkId> ids;
   for (const Pairing& pair : found.pairs) ids.push_back(pair.landmark);
   if (!belief_.bring(ids)) throw NumericalFailure("relocation", t);
-  const auto share = static_cast<std::size_t>(std::ceil(kept_share * static_cast<double>(found.pairs.size())));
+  const auto share =
+      static_cast<std::size_t>(std::ceil(kept_share * static_cast<double>(found.pairs.size())));
   return fit_most(belief_, surroundings_, std::max(fewest_kept, share), placement);
 }
 
@@ -99,9 +97,11 @@ double UnnamedSearch::log_chance(const ConstellationSearch::Found& found, const 
   const auto m = static_cast<double>(placement.pairs.size());
   const double dimensions = 2.0 * m - 3.0;
   const double q = std::max(placement.squared_distance, dimensions);
-  const double log_ball = 0.5 * dimensions * std::log(std::numbers::pi * q) - std::lgamma(0.5 * dimensions + 1.0);
+  const double log_ball =
+      0.5 * dimensions * std::log(std::numbers::pi * q) - std::lgamma(0.5 * dimensions + 1.0);
   const double log_choices = std::lgamma(k + 1.0) - std::lgamma(m + 1.0) - std::lgamma(k - m + 1.0);
-  return log_choices + m * std::log(found.density) + found.log_places + placement.log_density_of_poses + log_ball;
+  return log_choices + m * std::log(found.density) + found.log_places + placement.log_density_of_poses +
+         log_ball;
 }
 
 Relocation UnnamedSearch::named(const Placement& placement, const Pose2& T_world_robot) const {

@@ -19,7 +19,8 @@ class UnnamedSearch {
  public:
   /// `make_local` makes filters that name landmarks by themselves. `most_chance` [-]: of a wrong match that is as good as
   /// one that is taken.
-  UnnamedSearch(LocalBelief& belief, LocalMap::MakeFilter make_local, const Pose2& T_robot_sensor, double most_chance);
+  UnnamedSearch(LocalBelief& belief, LocalMap::MakeFilter make_local, const Pose2& T_robot_sensor,
+                double most_chance);
 
   /// The landmarks that are looked for, `sighting_sd` [m] as the sensor knows one of them; it sees as far as `reach` [m].
   void use(const LandmarkGrid& grid, double sighting_sd, double reach);

@@ -46,8 +46,7 @@ class CondensationTree {
   /// farthest observation [m]. False if a matrix is not positive definite, as below.
   [[nodiscard]] bool activate(InformationState& state, std::vector<int>& slots, double range);
 
-  /// From now on nothing turns any more (CondensationOptions::turns).
-  void keep_fixed() { records_.options.turns = false; }
+  void keep_fixed() { records_.options.turns = false; }  // from now on (CondensationOptions::turns)
   bool turns() const { return records_.options.turns; }
 
   /// Sends all messages anew, without any group: the exact solution, at the cost of a pass over the map.
@@ -86,7 +85,7 @@ class CondensationTree {
   void for_each_in_zone(Visit&& visit) const {
     for (int h = 0; h < zone_.size(); ++h) visit(zone_.slot(h));
   }
-  /// What is frozen says where its landmarks are now, without any group. Off the live path.
+  /// What is frozen, where its landmarks are now, without any group. Off the live path.
   FrozenInformation frozen_information(const InformationState& state) const;
 
   /// The covariance of [pose | landmarks], from (Omega + S)^-1 and from how inactive landmarks follow, to `out`
@@ -98,13 +97,11 @@ class CondensationTree {
 
   /// Moves the zone at once so that it holds these landmarks, if it does not.
   [[nodiscard]] bool bring(InformationState& state, std::span<const int> slots);
-
   /// Asks that the next zone hold this landmark.
   void want(int slot) { choice_.want(slot); }
 
   std::int64_t blocks_touched() const;
-  /// Ignored observations of known landmarks that had to wait, so far. [-]
-  std::int64_t waited() const { return waited_; }
+  std::int64_t waited() const { return waited_; }  // [-] ignored observations of known landmarks, so far
   std::size_t memory_bytes() const;
 
   /// The first broken invariant of the tree, if any, at the cost of a pass over the map.

@@ -22,7 +22,8 @@ struct AskedOfFilter {
 class TreeBelief final : public LocalBelief {
  public:
   /// `asked` collects what equate() and relocate() ask of the filter.
-  TreeBelief(InformationState& state, CondensationTree& tree, const Pose2& T_robot_sensor, AskedOfFilter& asked)
+  TreeBelief(InformationState& state, CondensationTree& tree, const Pose2& T_robot_sensor,
+             AskedOfFilter& asked)
       : state_(state), tree_(tree), T_robot_sensor_(T_robot_sensor), asked_of_filter_(asked) {}
 
   void begin_association(double t) override;

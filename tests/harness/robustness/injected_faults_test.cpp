@@ -210,10 +210,11 @@ INSTANTIATE_TEST_SUITE_P(Engines, Kidnapping,
                            return engine.param == worlds::Engine::bullet ? "Bullet" : "Kinematic";
                          });
 
-TEST_P(Kidnapping, IsToldWithinSeconds) {
+TEST_P(Kidnapping, IsToldWithinSecondsByFiltersThatDoNotLookForTheirPlace) {
   const TemporaryFolder folder;
   worlds::World world = world_with({kidnapping()});
   world.physics.engine = GetParam();
+  for (worlds::EstimatorChoice& estimator : world.estimators) estimator.options["relocate"] = "never";
   const RunResult result = run_live(world, folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators) {
     ASSERT_TRUE(score.diverged_t) << score.name;
@@ -226,6 +227,23 @@ TEST_P(Kidnapping, IsToldWithinSeconds) {
   EXPECT_EQ(json["estimators"]["seif"]["diverged_s"], score_of(result, "seif").diverged_t);
   EXPECT_NE(scoreboard(result.summary).find("seif diverged at"), std::string::npos);
   expect_nothing_infinite_in(folder / "run");
+}
+
+class Found : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Landmarks, Found, testing::Bool(),
+                         [](const auto& named) { return named.param ? "WithNames" : "WithoutNames"; });
+
+TEST_P(Found, IsTheRobotAfterAKidnappingAndTheMapStaysRight) {
+  const TemporaryFolder folder;
+  worlds::World world = world_with({kidnapping()});
+  world.landmark_sensor.ids = GetParam() ? worlds::LandmarkIds::known : worlds::LandmarkIds::hidden;
+  const RunResult result = run_live(world, folder / "run");
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    EXPECT_EQ(score.relocations, 1) << score.name;
+    EXPECT_FALSE(score.diverged_nees_t) << score.name;
+    EXPECT_LT(score.landmarks.rmse_aligned, 0.05) << score.name;
+    EXPECT_LT(score.nees_pose_final, 10.0) << score.name;
+  }
 }
 
 TEST_P(Kidnapping, MovesTheTruthAndNotTheWheels) {

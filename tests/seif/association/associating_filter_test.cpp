@@ -295,6 +295,8 @@ class Metered final : public Estimator, public LocalBelief {
   }
   void want(std::span<const LandmarkId> landmarks) override { belief_.want(landmarks); }
   void equate(LandmarkId a, LandmarkId b) override { belief_.equate(a, b); }
+  bool bring(std::span<const LandmarkId> landmarks) override { return belief_.bring(landmarks); }
+  void relocate(const Relocation& relocation) override { belief_.relocate(relocation); }
   Pose2 pose() const override { return seif_.pose(); }
   Counts counts() const override { return seif_.counts(); }
   std::size_t memory_bytes() const override { return seif_.memory_bytes(); }
