@@ -147,6 +147,19 @@ std::optional<double> relocation_rate(const ComparedRun& run, const std::string&
   return static_cast<double>(*score->relocations) / static_cast<double>(run.result.summary.updates);
 }
 
+void compare_losses(std::span<const ComparedRun> runs, EstimatorComparison& estimator) {
+  std::vector<double> times;
+  for (const ComparedRun& run : runs) {
+    const EstimatorScore* score = finished(run, estimator.name);
+    if (score == nullptr || score->losses.count() == 0) continue;
+    estimator.losses += score->losses.count();
+    estimator.relocalised += score->losses.found();
+    estimator.relocalised_wrongly += score->losses.found_wrongly();
+    times.push_back(score->losses.lost_s());
+  }
+  estimator.lost_s = value_of(mean_of(times));
+}
+
 void compare_costs(std::span<const ComparedRun> runs, EstimatorComparison& estimator) {
   const auto values = [&](const Get& get) { return present(collect(runs, estimator.name, get)); };
   estimator.links = mean_of_positive(values([](const EstimatorScore& score) { return real(score.links); }));
@@ -181,6 +194,7 @@ void compare_estimators(Comparison& comparison) {
     estimator.nees_landmark = mean_of_positive(
         present(collect(runs, name, [](const EstimatorScore& score) { return score.nees_landmark_final; })));
     compare_details(runs, estimator);
+    compare_losses(runs, estimator);
     compare_costs(runs, estimator);
     comparison.estimators.push_back(std::move(estimator));
   }

@@ -43,6 +43,10 @@ struct EstimatorComparison {
   std::optional<Estimate> links;                 // [-] when the run ends
   std::optional<double> links_max;               // [-] maximum over the runs
   std::optional<double> relocations_per_update;  // [-] empty: there were none
+  int losses = 0;                                // [-] of the place, in all runs, as for the next two
+  int relocalised = 0;                           // [-]
+  int relocalised_wrongly = 0;                   // [-]
+  std::optional<double> lost_s;                  // [s] mean over the runs in which it was lost
   std::optional<double> update_p50_us;           // [us] mean over the runs
   std::optional<double> update_p99_us;           // [us] mean over the runs
 };

@@ -39,6 +39,10 @@ const Key keys[] = {
     {"links", &EstimatorComparison::links},
     {"links_max", &EstimatorComparison::links_max},
     {"relocations_per_update", &EstimatorComparison::relocations_per_update},
+    {"losses", &EstimatorComparison::losses},
+    {"relocalised", &EstimatorComparison::relocalised},
+    {"relocalised_wrongly", &EstimatorComparison::relocalised_wrongly},
+    {"lost_s", &EstimatorComparison::lost_s},
     {"update_p50_us", &EstimatorComparison::update_p50_us},
     {"update_p99_us", &EstimatorComparison::update_p99_us},
 };

@@ -75,6 +75,18 @@ TextRow cost_row(const EstimatorComparison& estimator) {
           number_cell(estimator.update_p99_us, 1)};
 }
 
+/// Of those that were lost; empty if none was.
+std::vector<TextRow> loss_table(const Comparison& comparison) {
+  std::vector<TextRow> table = {{"lost and found", "lost", "found", "wrongly", "lost for [s]"}};
+  for (const EstimatorComparison& estimator : comparison.estimators) {
+    if (estimator.losses == 0) continue;
+    table.push_back({estimator.name, fmt::format("{}", estimator.losses),
+                     fmt::format("{}", estimator.relocalised),
+                     fmt::format("{}", estimator.relocalised_wrongly), number_cell(estimator.lost_s, 1)});
+  }
+  return table.size() > 1 ? table : std::vector<TextRow>{};
+}
+
 std::string footnote(const std::string& baseline) {
   return fmt::format(
       "over {}: geometric mean over the runs of the ratio in the same run\n"
@@ -145,7 +157,10 @@ std::vector<std::vector<TextRow>> comparison_tables(const Comparison& comparison
     consistency.push_back(consistency_row(estimator));
     cost.push_back(cost_row(estimator));
   }
-  return {accuracy, consistency, cost};
+  std::vector<std::vector<TextRow>> tables = {accuracy, consistency, cost};
+  if (std::vector<TextRow> losses = loss_table(comparison); !losses.empty())
+    tables.push_back(std::move(losses));
+  return tables;
 }
 
 std::string comparison_board(const Comparison& comparison) {

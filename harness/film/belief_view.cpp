@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <utility>
 
 #include "harness/film/paint.hpp"
 #include "harness/statistics/ellipse.hpp"
@@ -27,6 +28,8 @@ constexpr std::size_t most_refreshed = 10'000;  // [-] landmarks; larger maps ar
 constexpr std::size_t most_links = 2000;     // [-] the strongest links
 constexpr std::size_t most_dots = 4000;      // [-] dots of landmarks, a fixed choice
 constexpr std::size_t most_ellipses = 1000;  // [-] ellipses and error lines, a fixed choice
+
+constexpr double found_is_told = 5.0;  // [s]
 
 // How dark links are.
 constexpr double share_of_run = 0.08;  // [-] links fade with this share of the run as the time constant ...
@@ -86,6 +89,7 @@ void BeliefView::update(const UpdateRecord& record) {
   }
   t_ = record.t;
   note_active();
+  note_loss(record.counts);
   links_ = record.counts.links;
   pose_ = record.est_pose;
   ++matrix_refresh_.scans;
@@ -96,6 +100,15 @@ void BeliefView::update(const UpdateRecord& record) {
     position_errors_.add(record.t, std::hypot(pose_.x - record.true_pose->x, pose_.y - record.true_pose->y));
   if (record.est_covariance) note_sigma(*record.est_covariance);
 }
+
+void BeliefView::note_loss(const seif::Counts& counts) {
+  losses_.add({.t = t_,
+               .has_used = counts.innovation_degrees > 0,
+               .left_out = counts.gated - std::exchange(left_out_, counts.gated),
+               .relocations = counts.relocations - std::exchange(relocations_, counts.relocations)});
+}
+
+bool BeliefView::was_found() const { return losses_.found_t() && t_ - *losses_.found_t() < found_is_told; }
 
 /// Reads which landmarks have a link to the robot: only links among these change.
 void BeliefView::note_active() {

@@ -16,6 +16,7 @@
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
 #include "harness/run/live_loop.hpp"
+#include "harness/statistics/losses.hpp"
 #include "harness/stream/run_listener.hpp"
 #include "sim/render/scene.hpp"
 
@@ -57,6 +58,9 @@ class BeliefView {
   Rgb colour() const { return colour_; }
   std::size_t landmarks() const { return means_.size(); }
   std::int64_t links() const { return links_; }
+  bool is_lost() const { return losses_.is_lost(); }
+  /// Whether the filter has found its place again in the last seconds.
+  bool was_found() const;
   const Series& update_times() const { return update_times_; }        // [us]
   const Series& position_errors() const { return position_errors_; }  // [m]
   const Series& three_sigma() const { return three_sigma_; }          // [m]
@@ -70,6 +74,7 @@ class BeliefView {
   void read_covariances(const worlds::FilmLayers& layers);
   void read_all_covariances();
   void note_active();
+  void note_loss(const seif::Counts& counts);
   double freshness(seif::LandmarkId from, seif::LandmarkId to) const;
   void note_sigma(const Eigen::Matrix3d& covariance);
   void append_map(const Gaze& gaze, const worlds::FilmLayers& layers, const Stage& stage,
@@ -108,6 +113,8 @@ class BeliefView {
   std::size_t turn_ = 0;               // number of the landmark out of view that is read next
   std::int64_t links_ = 0;
   double t_ = 0.0;  // [s] of the last update
+  Losses losses_;
+  std::int64_t left_out_ = 0, relocations_ = 0;  // [-] up to the last update
   Refresh matrix_refresh_;
   Refresh covariance_refresh_;
   std::optional<Eigen::Matrix3d> pose_covariance_;                     // empty if not known

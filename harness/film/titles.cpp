@@ -31,6 +31,8 @@ std::string figures_of(const BeliefView& belief) {
   if (!belief.failure().empty()) return "failed " + belief.failure();
   std::string text = fmt::format("{} landmarks", belief.landmarks());
   if (belief.links() > 0) text += fmt::format(" · {} links", belief.links());
+  if (belief.is_lost()) text += " · lost";
+  if (belief.was_found()) text += " · found its place again";
   return text;
 }
 

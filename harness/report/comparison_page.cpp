@@ -135,6 +135,7 @@ Page page_of_comparison(const std::filesystem::path& folder, const std::string& 
                   fmt::format("Over {0}: the ratio to {0}'s in the same runs.", comparison.baseline)},
                  {"Consistency at the end", tables[1], "NEES and NIS: 1 is right, more is overconfident."},
                  {"Map and cost", tables[2]}};
+  if (tables.size() > 3) page.tables.push_back({"Lost and found again", tables[3]});
   Figure runs = runs_figure(comparison, comparison.runs.size(),
                             [&](std::size_t run, const std::string& name) -> std::optional<double> {
                               const Json& estimators = json.at("runs").at(run).at("summary").at("estimators");

@@ -57,6 +57,14 @@ void score_associations(const std::filesystem::path& folder, EstimatorScore& sco
   if (names) score.associations_right = share(names->right(), named);
 }
 
+/// e' P^-1 e of the pose of a row, if truth and covariance are known.
+std::optional<double> distance_of(const CsvReader& rows) {
+  if (rows.is_empty(step_error_x) || rows.is_empty(step_cov_xx)) return std::nullopt;
+  const Eigen::Vector3d error(rows.number(step_error_x), rows.number(step_error_y),
+                              rows.number(step_error_theta));
+  return squared_distance(error, read_covariance<3>(rows, step_cov_xx));
+}
+
 void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
   CsvReader rows(folder / (score.name + "_steps.csv"), step_columns());
   std::vector<double> blocks_touched;
@@ -64,6 +72,7 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
   InnovationTest innovations;
   while (rows.next()) {
     const std::int64_t gated_before = score.gated.value_or(0);
+    const std::int64_t relocations_before = score.relocations.value_or(0);
     blocks_touched.push_back(rows.number(step_blocks_touched));
     score.active_max = std::max(score.active_max.value_or(0), rows.integer(step_active_landmarks, 0, most));
     score.links = rows.integer(step_links, 0, most);
@@ -78,6 +87,13 @@ void score_steps(const std::filesystem::path& folder, EstimatorScore& score) {
       innovations.add(rows.number(step_t), rows.number(step_innovation), degrees,
                       *score.gated - gated_before);
     }
+    UpdateOfLoss update{
+        .t = rows.number(step_t),
+        .has_used = !rows.has_newer() || rows.integer(step_innovation_degrees, 0, most_degrees) > 0,
+        .left_out = score.gated.value_or(0) - gated_before,
+        .relocations = *score.relocations - relocations_before};
+    if (update.relocations > 0) update.distance = distance_of(rows);
+    score.losses.add(update);
   }
   score.diverged_t = innovations.fired_t();
   score.worst_nis = innovations.worst();

@@ -12,6 +12,7 @@
 #include "harness/score/map_counts.hpp"
 #include "harness/score/score.hpp"
 #include "harness/score/true_names.hpp"
+#include "harness/statistics/losses.hpp"
 #include "harness/stream/run_listener.hpp"
 
 namespace harness {
@@ -41,6 +42,7 @@ struct EstimatorScore {
   std::optional<std::int64_t> links;                             // [-] after the last update
   std::optional<std::int64_t> links_max;                         // [-]
   std::optional<std::int64_t> relocations;                       // [-] total of the run
+  Losses losses;                                                 // of its place, and how it was found again
   std::optional<std::int64_t> gated;                             // [-] observations left out by the gate
   std::optional<std::int64_t> weakened;                          // [-] observations with reduced weight
   std::optional<double> associations_right;     // [-] share of the estimator's own associations

@@ -112,6 +112,21 @@ std::string divergence_lines(const Summary& summary) {
   return text.empty() ? text : '\n' + text;
 }
 
+/// The estimators that lost their place, and how often they found it again; empty if there are none.
+std::string loss_lines(const Summary& summary) {
+  std::string text;
+  for (const EstimatorScore& score : summary.score.estimators) {
+    const Losses& losses = score.losses;
+    if (losses.count() == 0) continue;
+    text += fmt::format("{} was lost {} times, for {:.1f} s in all, and found its place {} times", score.name,
+                        losses.count(), losses.lost_s(), losses.found());
+    if (losses.first_found_t()) text += fmt::format(", first at {} s", *losses.first_found_t());
+    if (losses.found_wrongly() > 0) text += fmt::format("; {} of them were wrong", losses.found_wrongly());
+    text += '\n';
+  }
+  return text.empty() ? text : '\n' + text;
+}
+
 /// One line with a counter of all estimators, without those where it is zero; empty if it is zero for all.
 std::string count_line(const Summary& summary, std::string_view what,
                        std::optional<std::int64_t> EstimatorScore::*count) {
@@ -192,7 +207,7 @@ std::string scoreboard(const Summary& summary) {
 std::string scoreboard_notes(const Summary& summary) {
   std::string text = note_lines(summary) + log_line(summary) + left_out_line(summary) + truth_lines(summary) +
                      matching_lines(summary) + gate_line(summary) + association_lines(summary) +
-                     divergence_lines(summary);
+                     loss_lines(summary) + divergence_lines(summary);
   for (std::size_t i = 0; i < summary.failures.size(); ++i) {
     if (!summary.failures[i].empty())
       text += fmt::format("\n{} failed {}\n", summary.score.estimators[i].name, summary.failures[i]);

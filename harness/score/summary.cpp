@@ -90,6 +90,11 @@ Json estimator(const EstimatorScore& score, const std::string& failure) {
   json["links"] = count(score.links);
   json["links_max"] = count(score.links_max);
   json["relocations"] = count(score.relocations);
+  json["losses"] = score.losses.count();
+  json["lost_s"] = score.losses.lost_s();
+  json["relocalised"] = score.losses.found();
+  json["relocalised_wrongly"] = score.losses.found_wrongly();
+  json["relocalised_s"] = number(score.losses.first_found_t());
   json["gated"] = count(score.gated);
   json["weakened"] = count(score.weakened);
   if (score.associations_left_out) {

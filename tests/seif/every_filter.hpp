@@ -26,7 +26,7 @@ inline std::vector<std::string> every_filter() {
 /// For INSTANTIATE_TEST_SUITE_P: names the test after the filter.
 inline std::string name_of(const testing::TestParamInfo<std::string>& filter) { return filter.param; }
 
-/// The filter with its defaults. With `is_linear` it takes observations for as linear as the other filters do, with
+/// The filter itself, with its defaults, and without what looks for its place when it is lost. With `is_linear` it takes observations for as linear as the other filters do, with
 /// `is_fixed` nothing that it has learnt turns later.
 inline std::unique_ptr<Estimator> make(const std::string& name, const EstimatorSetup& setup,
                                        bool is_linear = false, bool is_fixed = false) {
@@ -35,6 +35,7 @@ inline std::unique_ptr<Estimator> make(const std::string& name, const EstimatorS
   Options options;
   for (const OptionSpec& spec : type->options) options[spec.key] = spec.fallback;
   if (name == seif_by_groups) options["mean_recovery"] = std::string("multilevel");
+  if (options.contains("relocate")) options["relocate"] = std::string("never");
   if (is_linear && options.contains("linearisation_noise")) options["linearisation_noise"] = 0.0;
   if (is_fixed && options.contains("tree_frames")) options["tree_frames"] = std::string("fixed");
   return type->make(setup, options);

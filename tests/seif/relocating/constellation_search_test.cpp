@@ -1,4 +1,6 @@
 // The search for a place by constellations: it finds the right one, and tells of none in a map that it has never seen.
+#include "seif/relocating/constellation_search.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "seif/association/constellation_index.hpp"
-#include "seif/relocating/constellation_search.hpp"
 
 namespace seif {
 namespace {
@@ -42,7 +43,8 @@ Points around(const Points& landmarks, const Pose2& T_world_robot, std::mt19937_
   Points points;
   for (const Eigen::Vector2d& p : landmarks) {
     const Eigen::Vector2d p_robot = inverse(T_world_robot) * p;
-    if (p_robot.norm() <= reach) points.emplace_back(p_robot.x() + error(random), p_robot.y() + error(random));
+    if (p_robot.norm() <= reach)
+      points.emplace_back(p_robot.x() + error(random), p_robot.y() + error(random));
   }
   std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return p.norm(); });
   if (points.size() > 24) points.resize(24);
@@ -93,7 +95,8 @@ TEST(ConstellationSearch, LooksAtABoundedNumberOfPosesHoweverLargeTheMap) {
     Map map;
     for (const Eigen::Vector2d& p : landmarks) map.add(p);
     ConstellationSearch search(map.grid, map.index, 5.0 * sighting_sd);
-    const Points points = around(scattered(count, std::sqrt(count / 0.15), random), {15.0, 15.0, 0.0}, random);
+    const Points points =
+        around(scattered(count, std::sqrt(count / 0.15), random), {15.0, 15.0, 0.0}, random);
     std::int64_t before = 0;
     for (int scan = 0; scan < 5; ++scan) {
       search.step(points, {}, {});
@@ -117,7 +120,8 @@ TEST(ConstellationIndex, FindsATriangleBySidesThatAreALittleWrong) {
     ASSERT_EQ(all.size(), 1U) << error;
     EXPECT_EQ(all.front(), (std::array<LandmarkId, 3>{0, 1, 2}));
   }
-  EXPECT_TRUE(corners_like({3.0, std::sqrt(5.0), std::sqrt(8.0)}).empty()) << "its mirror image is another one";
+  EXPECT_TRUE(corners_like({3.0, std::sqrt(5.0), std::sqrt(8.0)}).empty())
+      << "its mirror image is another one";
 }
 
 }  // namespace
