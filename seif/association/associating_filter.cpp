@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ranges>
 #include <stdexcept>
 
@@ -25,8 +26,11 @@ constexpr int never = -1'000'000;                 // [-] of these, for two that 
 // Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
-constexpr int fewest_compared = 2;  // [-] observations or landmarks, for a scan to say that it does not fit
+constexpr int fewest_compared = 2;     // [-] observations or landmarks, for a scan to say that it does not fit
+constexpr double some_doubt = 4.6;     // [nat] log 100
+constexpr double most_doubt = 13.8;    // [nat] log 1e6
 constexpr int scans_to_fit_again = 5;  // [-] after which only the search tells where the robot is
+constexpr int lately = 15;             // [-] scans
 
 double largest_variance(const Eigen::Matrix2d& covariance) {
   const double mean = 0.5 * covariance.trace();
@@ -50,9 +54,8 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const Es
       options_(options),
       matcher_(options.match_probability, options.new_probability),
       merge_gate_(chi_square_gate(1, options.merge_probability)),
-      tentative_(options.forget_after) {
-  if (make_local)
-    search_.emplace(belief_, std::move(make_local), T_robot_sensor_, options.wrong_place_probability);
+      tentative_(options.forget_after),
+      make_local_(std::move(make_local)) {
   // More than scans mostly need, so that none comes to ask for more when the map is long known.
   suspicions_.reserve(most_suspicions);
   for (auto* ids : {&at_hand_, &asked_, &wanted_}) ids->reserve(4 * most_asked);
@@ -66,7 +69,7 @@ void AssociatingFilter::motion_update(const Odometry& odometry) {
   const Eigen::Matrix3d& R = odometry.covariance;
   wander_ += R(0, 0) + R(1, 1) + reach_ * reach_ * R(2, 2);
   filter_->motion_update(odometry);
-  if (search_ && search_->is_on()) search_->motion_update(odometry);
+  if (finder_ && finder_->lost.is_on()) finder_->lost.motion_update(odometry);
 }
 
 void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
@@ -76,7 +79,7 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
   tentative_.begin_scan(std::exchange(wander_, 0.0));
   refresh_grid();
   find_pairs(scan);
-  if (search_ && is_lost(scan)) {
+  if (finder_ && is_lost(scan)) {
     look_for_place(scan);
   } else {
     last_home_ = scan_;
@@ -85,7 +88,7 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
     suspect();
     merge();
     belief_.want(wanted_);
-    if (search_ && grid_) search_->keep_up(scan_);
+    if (finder_) look_for_closing(scan.t);
   }
   filter_->measurement_update(named_, done);
 }
@@ -97,13 +100,14 @@ void AssociatingFilter::widen_view(const Scan& scan) {
     widest_bearing_ = std::max(widest_bearing_, std::abs(observation.bearing));
   }
   constexpr double least_cell = 1e-3;  // [m]
-  if (grid_ || scan.observations.empty()) return;
-  grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
-  if (!search_) return;
-  double sighting_sd = 0.0;
+  if (!grid_ && !scan.observations.empty()) {
+    grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
+    if (make_local_)
+      finder_.emplace(belief_, *grid_, make_local_, T_robot_sensor_, options_.wrong_place_probability);
+  }
+  if (!finder_) return;
   for (const Observation& observation : scan.observations)
-    sighting_sd = std::max(sighting_sd, sd_of_sighting(observation));
-  search_->use(*grid_, sighting_sd, reach_);
+    finder_->map.widen(observation.range, sd_of_sighting(observation));
 }
 
 /// Landmarks at hand may have moved; all others wait until they are.
@@ -115,42 +119,55 @@ void AssociatingFilter::refresh_grid() {
 
 // A robot that is lost.
 
-/// Whether what the robot has just seen is not where it should be, and something else is: most of what this scan could be
-/// paired with is not.
-bool AssociatingFilter::breaks_off(const Scan& scan) const {
+/// [nat] How improbable this scan is if the robot is where the filter believes, given how reliably its landmarks have
+/// been seen: those that should be seen and are not. Zero if most of what is seen is known, or nothing is.
+double AssociatingFilter::doubt_of(const Scan& scan) const {
   const auto observed = static_cast<int>(scan.observations.size());
-  int paired = 0;
   std::vector<LandmarkId> seen;
   for (int i = 0; i < observed; ++i) {
-    if (matcher_.match(i) == ScanMatcher::none) continue;
-    ++paired;
-    seen.push_back(asked_[static_cast<std::size_t>(matcher_.match(i))]);
+    if (matcher_.match(i) != ScanMatcher::none)
+      seen.push_back(asked_[static_cast<std::size_t>(matcher_.match(i))]);
   }
-  const auto missed = static_cast<int>(std::ranges::count_if(at_hand_, [&](LandmarkId id) {
-    return landmark(id).last_seen == last_home_ && std::ranges::find(seen, id) == seen.end();
-  }));
+  const auto paired = static_cast<int>(seen.size());
+  if (observed < fewest_compared || 2 * paired >= observed) return 0.0;
+  int missed = 0;
+  double doubt = 0.0;
+  for (const LandmarkId id : at_hand_) {
+    const bool was_just_seen = landmark(id).last_seen == last_home_;
+    if (std::ranges::find(seen, id) != seen.end() || !(was_just_seen || should_see(id))) continue;
+    ++missed;
+    const double share = (landmark(id).seen + 1.0) / (landmark(id).expected + 2.0);  // Laplace's rule
+    doubt -= std::log(1.0 - share);
+  }
   const int comparable = std::min(observed, paired + missed);
-  return comparable >= fewest_compared && 2 * paired < comparable;
+  return comparable >= fewest_compared && 2 * paired < comparable ? doubt : 0.0;
 }
 
-/// One scan that does not fit is ignored, the second begins a search.
+/// Scans in a row that do not fit begin a search.
 bool AssociatingFilter::is_lost(const Scan& scan) {
-  if (!search_->is_on()) {
-    broken_ = breaks_off(scan) ? broken_ + 1 : 0;
-    if (broken_ == 0) return false;
+  UnnamedSearch& search = finder_->lost;
+  if (!search.is_on()) {
+    const double doubt = doubt_of(scan);
+    doubt_ = doubt >= some_doubt ? doubt_ + doubt : 0.0;
+    if (doubt_ == 0.0) return false;
+    if (doubt_ == doubt) return true;
+    if (doubt_ < most_doubt) return true;
+    finder_->map.settle_all();
+    if (finder_->map.is_empty()) return false;
     fitting_ = 0;
-    if (broken_ > 1) search_->begin();
+    searched_ = 0;
+    search.begin();
     return true;
   }
   // An outlier of a whole scan: what comes soon afterwards fits again.
-  ++broken_;
+  ++searched_;
   const auto paired = std::ranges::count_if(std::views::iota(0, static_cast<int>(scan.observations.size())),
                                             [&](int i) { return matcher_.match(i) != ScanMatcher::none; });
   const bool fits = paired >= fewest_compared && 2 * paired > std::ssize(scan.observations);
   fitting_ = fits ? fitting_ + 1 : 0;
-  if (broken_ > scans_to_fit_again || fitting_ < 2) return true;
-  search_->end();
-  broken_ = 0;
+  if (searched_ > scans_to_fit_again || fitting_ < 2) return true;
+  search.end();
+  doubt_ = 0.0;
   return false;
 }
 
@@ -160,8 +177,8 @@ void AssociatingFilter::look_for_place(const Scan& scan) {
   names_.assign(scan.observations.size(), no_landmark);
   named_.t = scan.t;
   named_.observations.clear();
-  if (!search_->is_on()) return;
-  std::optional<Relocation> found = search_->measurement_update(scan, filter_->pose());
+  if (!finder_->lost.is_on()) return;
+  std::optional<Relocation> found = finder_->lost.measurement_update(scan, filter_->pose());
   if (!found) return;
   for (std::size_t i = 0; i < found->surroundings.size(); ++i) {
     LandmarkId& name = found->surroundings.landmarks[i];
@@ -172,16 +189,46 @@ void AssociatingFilter::look_for_place(const Scan& scan) {
     landmark(name).farthest = std::max(landmark(name).farthest, found->surroundings.at(i).norm());
   }
   belief_.relocate(*found);
-  search_->end();
-  broken_ = 0;
+  finder_->lost.end();
+  doubt_ = 0.0;
   last_home_ = scan_;
+}
+
+/// Whether landmarks that have joined lately are in the map already.
+void AssociatingFilter::look_for_closing(double t) {
+  finder_->map.keep_up(scan_);
+  if (finder_->map.just_settled().empty()) return;
+  LandmarkId oldest = std::numeric_limits<LandmarkId>::max();
+  for (const LandmarkId id : at_hand_) {
+    if (landmark(id).last_seen > scan_ - lately) oldest = std::min(oldest, id);
+  }
+  if (const std::optional<Closing> closing = finder_->closing.look(filter_->pose(), oldest, t))
+    close(*closing);
+}
+
+/// What the filter contradicts is put back instead, and what lies around the robot at the wrong place is forgotten.
+void AssociatingFilter::close(const Closing& closing) {
+  if (!closing.relocation) {
+    for (const auto& [young, old] : closing.twins) join(old, young);
+    return;
+  }
+  belief_.relocate(*closing.relocation);
+  for (const auto& [young, old] : closing.twins) {
+    landmark(old).last_seen = landmark(young).last_seen;
+    rename(young, old);
+  }
+  for (const LandmarkId id : closing.around) {
+    retire(id);
+    rename(id, no_landmark);
+  }
+  std::erase_if(named_.observations, [](const Observation& z) { return z.landmark == no_landmark; });
 }
 
 LandmarkId AssociatingFilter::new_name(const Eigen::Vector2d& p_world) {
   const auto id = static_cast<LandmarkId>(landmarks_.size());
   landmarks_.push_back({});
   grid_->add(p_world);
-  if (search_) search_->note_joined(id, scan_);
+  if (finder_) finder_->map.note_joined(id, scan_);
   return id;
 }
 
@@ -373,13 +420,23 @@ void AssociatingFilter::merge() {
     const auto [a, b, scans, last_scan] = *sure;
     const LandmarkId goes = landmark(b).seen <= landmark(a).seen ? b : a;
     const LandmarkId stays = goes == b ? a : b;
-    belief_.equate(stays, goes);
-    landmark(stays).seen += landmark(goes).seen;
-    retire(goes);
-    std::ranges::replace(names_, goes, stays);
-    for (Observation& observation : named_.observations) {
-      if (observation.landmark == goes) observation.landmark = stays;
-    }
+    join(stays, goes);
+  }
+}
+
+void AssociatingFilter::join(LandmarkId stays, LandmarkId goes) {
+  belief_.equate(stays, goes);
+  landmark(stays).seen += landmark(goes).seen;
+  landmark(stays).last_seen = std::max(landmark(stays).last_seen, landmark(goes).last_seen);
+  retire(goes);
+  rename(goes, stays);
+}
+
+/// In the latest scan.
+void AssociatingFilter::rename(LandmarkId from, LandmarkId to) {
+  std::ranges::replace(names_, from, to);
+  for (Observation& observation : named_.observations) {
+    if (observation.landmark == from) observation.landmark = to;
   }
 }
 
@@ -387,14 +444,14 @@ void AssociatingFilter::merge() {
 
 Counts AssociatingFilter::counts() const {
   Counts counts = filter_->counts();
-  counts.blocks_touched += blocks_touched_ + (search_ ? search_->work() : 0);
+  counts.blocks_touched += blocks_touched_ + (finder_ ? finder_->work() : 0);
   counts.gated += held_back_;
   return counts;
 }
 
 std::size_t AssociatingFilter::memory_bytes() const {
   return filter_->memory_bytes() + landmarks_.memory_bytes() + tentative_.memory_bytes() +
-         (grid_ ? grid_->memory_bytes() : 0) + (search_ ? search_->memory_bytes() : 0) +
+         (grid_ ? grid_->memory_bytes() : 0) + (finder_ ? finder_->memory_bytes() : 0) +
          sizeof(double) * static_cast<std::size_t>(Sigma_.size());
 }
 

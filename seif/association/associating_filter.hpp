@@ -18,7 +18,7 @@
 #include "seif/association/tentative_landmarks.hpp"
 #include "seif/chunked_array.hpp"
 #include "seif/estimator.hpp"
-#include "seif/relocating/unnamed_search.hpp"
+#include "seif/relocating/place_finder.hpp"
 
 namespace seif {
 
@@ -84,8 +84,12 @@ class AssociatingFilter final : public FilterAround {
   bool is_seen_now(LandmarkId id) const { return landmark(id).last_seen == scan_; }
 
   bool is_lost(const Scan& scan);
-  bool breaks_off(const Scan& scan) const;
+  double doubt_of(const Scan& scan) const;
   void look_for_place(const Scan& scan);
+  void look_for_closing(double t);
+  void close(const Closing& closing);
+  void join(LandmarkId stays, LandmarkId goes);
+  void rename(LandmarkId from, LandmarkId to);
   LandmarkId new_name(const Eigen::Vector2d& p_world);
   bool should_see(LandmarkId id) const;
   void refresh_grid();
@@ -113,9 +117,11 @@ class AssociatingFilter final : public FilterAround {
   std::optional<LandmarkGrid> grid_;  // made once it is known how far the robot sees
   ChunkedArray<Landmark> landmarks_;  // by name
   std::vector<Suspicion> suspicions_;
-  std::optional<UnnamedSearch> search_;
-  int last_home_ = 0;             // the last scan that fitted
-  int broken_ = 0, fitting_ = 0;  // [-] scans in a row that do not fit, or fit again
+  LocalMap::MakeFilter make_local_;
+  std::optional<PlaceFinder> finder_;  // made with the grid, if the robot is to be found
+  double doubt_ = 0.0;                 // [nat] that the robot is where the filter believes
+  int last_home_ = 0;                  // the last scan that fitted
+  int searched_ = 0, fitting_ = 0;     // [-] scans of this search; those in a row that fit again
   std::int64_t held_back_ = 0;    // [-] observations
   int scan_ = 0;
   double wander_ = 0.0;                        // [m^2] since the last scan

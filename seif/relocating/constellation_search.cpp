@@ -10,8 +10,8 @@
 namespace seif {
 namespace {
 
-constexpr std::int64_t most_poses =
-    2000;  // [-] that one scan looks at, after which no further corner is begun
+constexpr std::int64_t most_poses = 2000;  // [-] that a call looks at, after which it begins no further corner
+constexpr std::int64_t most_poses_of_corner = 30'000;  // [-]
 constexpr std::size_t most_hypotheses = 8;  // [-] that are kept
 constexpr std::size_t fewest_fitting = 3;   // [-] points of a pose that is remembered
 constexpr std::size_t corners_before = 8;   // [-] that must have been looked from before a pose is told
@@ -24,9 +24,10 @@ constexpr std::size_t most_counted = 256;   // [-] landmarks, for their density
 
 }  // namespace
 
-void ConstellationSearch::step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot,
-                               const Pose2& T_world_robot) {
-  points_ = points;
+void ConstellationSearch::set_points(const Points& points, const Pose2& T_local_robot,
+                                     const Pose2& T_world_robot) {
+  points_ = points.p_local;
+  own_ = points.own;
   T_local_robot_ = T_local_robot;
   T_world_robot_ = T_world_robot;
   radius_ = near_;
@@ -35,17 +36,18 @@ void ConstellationSearch::step(const std::vector<Eigen::Vector2d>& points, const
   density_ = static_cast<double>(points_.size()) / (std::numbers::pi * radius_ * radius_);
   for (Hypothesis& hypothesis : hypotheses_) rate(hypothesis);
   std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
-  if (points_.size() < fewest_fitting) return;
-  const std::int64_t until = work_ + most_poses;
-  for (std::size_t i = 0; i < points_.size() && work_ < until; ++i) {
-    look_from(next_corner_ % points_.size());
-    ++next_corner_;
-    ++corners_done_;
-  }
 }
 
-/// All triangles of a point with the points near it.
-void ConstellationSearch::look_from(std::size_t corner) {
+void ConstellationSearch::look_around() {
+  if (points_.size() < fewest_fitting) return;
+  const std::int64_t until = work_ + most_poses;
+  for (std::size_t i = 0; i < points_.size() && work_ < until; ++i)
+    look_from(next_corner_++ % points_.size(), most_poses_of_corner);
+}
+
+void ConstellationSearch::look_from(std::size_t corner, std::int64_t most_poses) {
+  until_ = work_ + most_poses;
+  ++corners_done_;
   std::vector<int> others(points_.size());
   std::iota(others.begin(), others.end(), 0);
   std::erase(others, static_cast<int>(corner));
@@ -73,9 +75,10 @@ void ConstellationSearch::look_from(std::size_t corner) {
 void ConstellationSearch::try_triangle(const Triangle& triangle) {
   const auto at = [&](std::size_t c) { return points_[static_cast<std::size_t>(triangle.corners[c])]; };
   index_.for_each_like(triangle.sides, [&](const std::array<LandmarkId, 3>& corners) {
+    if (work_ >= until_) return;
     ++work_;
-    for (const LandmarkId id : corners) {
-      if (!grid_.has(id)) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!grid_.has(corners[c]) || is_own(static_cast<std::size_t>(triangle.corners[c]), corners[c])) return;
     }
     const Pose2 T = pose_from(at(0), at(1), grid_.position(corners[0]), grid_.position(corners[1]));
     if ((T * at(2) - grid_.position(corners[2])).norm() <= near_) try_pose(T);
@@ -102,12 +105,18 @@ void ConstellationSearch::rate(Hypothesis& hypothesis) const {
       -static_cast<double>(hypothesis.fitting) * std::log(p) - log_places(hypothesis.T_world_local, density_);
 }
 
+/// Landmarks that a point may be taken for.
+void ConstellationSearch::find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const {
+  grid_.find_near(T_world_local * points_[point], near_, own_.empty() ? most : most + 1, found_near_);
+  std::erase_if(found_near_, [&](const LandmarkGrid::Near& near) { return is_own(point, near.landmark); });
+}
+
 /// How many points have a landmark; 0 as soon as fewer than `at_least` can have.
 std::size_t ConstellationSearch::count(const Pose2& T_world_local, std::size_t at_least) const {
   std::size_t fitting = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (fitting + points_.size() - i < at_least) return 0;
-    grid_.find_near(T_world_local * points_[i], near_, 1, found_near_);
+    find_near(i, T_world_local, 1);
     if (!found_near_.empty()) ++fitting;
   }
   return fitting;
@@ -142,7 +151,7 @@ void ConstellationSearch::pair(const Pose2& T_world_local, std::vector<Pairing>&
   };
   std::vector<Near> all;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    grid_.find_near(T_world_local * points_[i], near_, 4, found_near_);
+    find_near(i, T_world_local, 4);
     for (const LandmarkGrid::Near& near : found_near_) all.push_back({near.distance, {i, near.landmark}});
   }
   std::ranges::stable_sort(all, {}, &Near::distance);
@@ -178,16 +187,29 @@ Pose2 ConstellationSearch::climb(Pose2 T_world_local, std::vector<Pairing>& pair
 std::optional<ConstellationSearch::Found> ConstellationSearch::best() const {
   if (hypotheses_.empty() || corners_done_ < std::min(points_.size(), corners_before)) return std::nullopt;
   const Hypothesis& first = hypotheses_.front();
-  for (const Hypothesis& other : hypotheses_) {
-    if (is_alike(other.T_world_local, first.T_world_local)) continue;
-    if (other.score > first.score - least_lead) return std::nullopt;
-  }
+  if (!is_alone()) return std::nullopt;
   Found found{.T_world_local = first.T_world_local, .pairs = {}};
   found.T_world_local = climb(first.T_world_local, found.pairs);
   if (found.pairs.size() < fewest_fitting || !is_complete(found)) return std::nullopt;
   found.density = density_at(found.T_world_local);
   found.log_places = log_places(found.T_world_local, found.density);
   return found;
+}
+
+/// Whether no other pose is nearly as good as the first.
+bool ConstellationSearch::is_alone() const {
+  const Hypothesis& first = hypotheses_.front();
+  return std::ranges::none_of(hypotheses_, [&](const Hypothesis& other) {
+    return !is_alike(other.T_world_local, first.T_world_local) && other.score > first.score - least_lead;
+  });
+}
+
+bool ConstellationSearch::is_ambiguous() const {
+  if (hypotheses_.empty()) return false;
+  const Hypothesis& first = hypotheses_.front();
+  return std::ranges::any_of(hypotheses_, [&](const Hypothesis& other) {
+    return !is_alike(other.T_world_local, first.T_world_local) && 2 * other.fitting > first.fitting + 1;
+  });
 }
 
 /// Whether enough of what lies among the points that fit does so: of the points and of the landmarks, whichever is less.

@@ -25,10 +25,18 @@ class ConstellationSearch {
   ConstellationSearch(const LandmarkGrid& grid, const ConstellationIndex& index, double near)
       : grid_(grid), index_(index), near_(near) {}
 
-  /// Goes on with the points of the local map that are around the robot now (p_local [m]), the nearest first.
-  /// `T_world_robot`: what the filter believes. The nearer to that, the fewer other places have to be excluded.
-  void step(const std::vector<Eigen::Vector2d>& points, const Pose2& T_local_robot,
-            const Pose2& T_world_robot);
+  struct Points {
+    std::vector<Eigen::Vector2d> p_local;  // [m]
+    std::vector<LandmarkId> own;  // the landmarks of the map that they are, which they are not taken for; or empty
+  };
+  /// The points of the local map that are around the robot now, the nearest first. `T_world_robot`: what the filter
+  /// believes. The nearer to that, the fewer other places have to be excluded.
+  void set_points(const Points& points, const Pose2& T_local_robot, const Pose2& T_world_robot);
+
+  /// Looks up the triangles of a point with the points near it. Ends after so many poses.
+  void look_from(std::size_t corner, std::int64_t most_poses);
+  /// Those of one point after the other, going on with each call, until enough poses have been looked at.
+  void look_around();
 
   struct Found {
     Pose2 T_world_local;
@@ -39,6 +47,8 @@ class ConstellationSearch {
   };
   /// The best pose so far, if no other one is nearly as good, and enough has been looked at.
   std::optional<Found> best() const;
+  /// Whether the surroundings look the same as other parts of the map: two poses fit to more than half of what fits best.
+  bool is_ambiguous() const;
 
   /// [-] Poses looked at so far.
   std::int64_t work() const { return work_; }
@@ -50,7 +60,6 @@ class ConstellationSearch {
     double score = 0.0;       // [nat] how much better it is than chance
   };
 
-  void look_from(std::size_t corner);
   void try_triangle(const Triangle& triangle);
   void try_pose(const Pose2& T_world_local);
   std::size_t count(const Pose2& T_world_local, std::size_t at_least) const;
@@ -59,20 +68,26 @@ class ConstellationSearch {
   void pair(const Pose2& T_world_local, std::vector<Pairing>& pairs) const;
   Pose2 climb(Pose2 T_world_local, std::vector<Pairing>& pairs) const;
   void rate(Hypothesis& hypothesis) const;
+  void find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const;
   double density_at(const Pose2& T_world_local) const;
   double log_places(const Pose2& T_world_local, double density) const;
   bool is_complete(const Found& found) const;
+  bool is_alone() const;
+  bool is_own(std::size_t point, LandmarkId landmark) const {
+    return !own_.empty() && own_[point] == landmark;
+  }
 
   const LandmarkGrid& grid_;
   const ConstellationIndex& index_;
   double near_;
-  std::vector<Eigen::Vector2d> points_;
+  std::vector<Eigen::Vector2d> points_;  // [m]
+  std::vector<LandmarkId> own_;          // by point; or empty
   Pose2 T_local_robot_, T_world_robot_;
   double radius_ = 0.0;                 // of the points around the robot [m]
   double density_ = 0.0;                // of them [1/m^2]
   std::vector<Hypothesis> hypotheses_;  // the best, different ones, the best first
   std::size_t next_corner_ = 0, corners_done_ = 0;
-  std::int64_t work_ = 0;
+  std::int64_t work_ = 0, until_ = 0;
   mutable std::vector<LandmarkGrid::Near> found_near_;
 };
 

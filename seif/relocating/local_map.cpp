@@ -1,9 +1,11 @@
 #include "seif/relocating/local_map.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "seif/association/local_belief.hpp"
+#include "seif/relocating/placement.hpp"
 
 namespace seif {
 namespace {
@@ -25,10 +27,10 @@ void LocalMap::measurement_update(const Scan& scan) {
   if (!scan.observations.empty()) ++scans_;
 }
 
-void LocalMap::read(double t, std::size_t most, Surroundings& out) {
+Surroundings LocalMap::read(double t, std::size_t most) {
   LocalBelief& belief = *filter_->local_belief();
   belief.begin_association(t);
-  std::vector<LandmarkId>& ids = out.landmarks;
+  std::vector<LandmarkId> ids;
   belief.landmarks_at_hand(ids);
   const Pose2 T_world_robot = filter_->pose();
   const Eigen::Vector2d here(T_world_robot.x, T_world_robot.y);
@@ -38,18 +40,7 @@ void LocalMap::read(double t, std::size_t most, Surroundings& out) {
     return to_a != to_b ? to_a < to_b : a < b;
   });
   if (ids.size() > most) ids.resize(most);
-  const auto k = static_cast<Eigen::Index>(ids.size());
-  Eigen::MatrixXd P(3 + 2 * k, 3 + 2 * k);
-  belief.covariance_with(ids, P);
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * k, 3 + 2 * k);
-  out.p_robot.resize(2 * k);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const ExpectedPlace place = expect_place(T_world_robot, belief.mean_of(ids[static_cast<std::size_t>(i)]));
-    out.p_robot.segment<2>(2 * i) = place.p_robot;
-    J.block<2, 3>(2 * i, 0) = place.J_x;
-    J.block<2, 2>(2 * i, 3 + 2 * i) = place.J_m;
-  }
-  out.covariance = J * P * J.transpose();
+  return surroundings_of(belief, T_world_robot, std::move(ids));
 }
 
 }  // namespace seif

@@ -28,7 +28,7 @@ class LocalMap {
 
   /// The nearest landmarks around the robot, at most `most`, by this map's names. Bounded work. Right after
   /// measurement_update().
-  void read(double t, std::size_t most, Surroundings& out);
+  Surroundings read(double t, std::size_t most);
 
   /// [-] Scans that saw something.
   int scans() const { return scans_; }

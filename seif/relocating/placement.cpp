@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace seif {
 namespace {
@@ -65,6 +66,24 @@ std::size_t worst_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& S) 
 }
 
 }  // namespace
+
+Surroundings surroundings_of(const LocalBelief& belief, const Pose2& T_world_robot,
+                             std::vector<LandmarkId> ids) {
+  const auto k = static_cast<Eigen::Index>(ids.size());
+  Eigen::MatrixXd P(3 + 2 * k, 3 + 2 * k);
+  belief.covariance_with(ids, P);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * k, 3 + 2 * k);
+  Surroundings around{.landmarks = std::move(ids), .p_robot = Eigen::VectorXd(2 * k), .covariance = {}};
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const ExpectedPlace place =
+        expect_place(T_world_robot, belief.mean_of(around.landmarks[static_cast<std::size_t>(i)]));
+    around.p_robot.segment<2>(2 * i) = place.p_robot;
+    J.block<2, 3>(2 * i, 0) = place.J_x;
+    J.block<2, 2>(2 * i, 3 + 2 * i) = place.J_m;
+  }
+  around.covariance = J * P * J.transpose();
+  return around;
+}
 
 Pose2 pose_from(const Eigen::Vector2d& a_robot, const Eigen::Vector2d& b_robot,
                 const Eigen::Vector2d& a_world, const Eigen::Vector2d& b_world) {

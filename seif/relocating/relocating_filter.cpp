@@ -7,12 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "seif/relocating/contradiction.hpp"
+
 namespace seif {
 namespace {
 
-/// [-] Above this v' S^-1 v an observation contradicts what the filter believes: 16 times the chi-square quantile of two
-/// degrees of freedom at 1 - 1e-6, so also for a filter whose errors are four times as large as it believes.
-constexpr double contradiction = 16.0 * 27.63;
 /// [-] Within this v' Q^-1 v by the sensor's noise alone nothing has to be computed.
 constexpr double near_enough = 27.63;
 constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are used
@@ -162,7 +161,7 @@ void RelocatingFilter::search(const Scan& scan) {
     local_.measurement_update(scan);
   }
   if (local_.scans() < fewest_scans) return;
-  local_.read(scan.t, most_around, surroundings_);
+  surroundings_ = local_.read(scan.t, most_around);
   pair_by_names();
   if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement);
 }
