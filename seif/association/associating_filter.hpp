@@ -122,7 +122,7 @@ class AssociatingFilter final : public FilterAround {
   double doubt_ = 0.0;                 // [nat] that the robot is where the filter believes
   int last_home_ = 0;                  // the last scan that fitted
   int searched_ = 0, fitting_ = 0;     // [-] scans of this search; those in a row that fit again
-  std::int64_t held_back_ = 0;    // [-] observations
+  std::int64_t held_back_ = 0;         // [-] observations
   int scan_ = 0;
   double wander_ = 0.0;                        // [m^2] since the last scan
   double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]

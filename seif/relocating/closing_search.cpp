@@ -12,9 +12,9 @@
 namespace seif {
 namespace {
 
-constexpr std::size_t most_young = 24;         // [-] landmarks around the robot that are used
-constexpr std::size_t fewest_twins = 4;        // [-]
-constexpr std::int64_t most_poses_of_young = 200;        // [-] for a landmark that has settled
+constexpr std::size_t most_young = 24;             // [-] landmarks around the robot that are used
+constexpr std::size_t fewest_twins = 4;            // [-]
+constexpr std::int64_t most_poses_of_young = 200;  // [-] for a landmark that has settled
 
 }  // namespace
 
@@ -23,7 +23,8 @@ std::optional<Closing> ClosingSearch::look(const Pose2& T_world_robot, LandmarkI
   look_from_settled(T_world_robot);
   const std::optional<ConstellationSearch::Found> found = search_->best();
   if (!found || search_->is_ambiguous()) return std::nullopt;
-  const bool is_old = std::ranges::all_of(found->pairs, [&](const Pairing& pair) { return pair.landmark < oldest_seen; });
+  const bool is_old =
+      std::ranges::all_of(found->pairs, [&](const Pairing& pair) { return pair.landmark < oldest_seen; });
   if (!is_old || found->pairs.size() < fewest_twins) return std::nullopt;
   std::optional<Closing> closing = verify(T_world_robot, *found, t);
   if (closing) work_ += std::exchange(search_, std::nullopt)->work();
@@ -65,7 +66,8 @@ std::optional<Closing> ClosingSearch::verify(const Pose2& T_world_robot,
       log_chance(surroundings.size(), found, placement) > most_log_chance_)
     return std::nullopt;
   Closing closing{.twins = {}, .around = around_.own, .relocation = {}};
-  for (const Pairing& pair : placement.pairs) closing.twins.push_back({around_.own[pair.around], pair.landmark});
+  for (const Pairing& pair : placement.pairs)
+    closing.twins.push_back({around_.own[pair.around], pair.landmark});
   if (contradicts(closing.twins)) {
     std::vector<LandmarkId> names(surroundings.size(), no_landmark);
     std::vector<bool> is_used(surroundings.size(), false);
@@ -90,8 +92,8 @@ bool ClosingSearch::contradicts(const std::vector<Closing::Twins>& twins) const 
   for (std::size_t i = 0; i < twins.size(); ++i) {
     const auto a = static_cast<Eigen::Index>(3 + 4 * i);
     const auto b = a + 2;
-    const Eigen::Matrix2d P = Sigma.block<2, 2>(a, a) + Sigma.block<2, 2>(b, b) - Sigma.block<2, 2>(a, b) -
-                              Sigma.block<2, 2>(b, a);
+    const Eigen::Matrix2d P =
+        Sigma.block<2, 2>(a, a) + Sigma.block<2, 2>(b, b) - Sigma.block<2, 2>(a, b) - Sigma.block<2, 2>(b, a);
     const Eigen::Vector2d apart = belief_.mean_of(twins[i].young) - belief_.mean_of(twins[i].old);
     if (!(apart.dot(P.inverse() * apart) <= contradiction)) ++against;
   }

@@ -40,7 +40,8 @@ class ClosingSearch {
  private:
   bool find_around(const Pose2& T_world_robot, LandmarkId oldest_seen);
   void look_from_settled(const Pose2& T_world_robot);
-  std::optional<Closing> verify(const Pose2& T_world_robot, const ConstellationSearch::Found& found, double t);
+  std::optional<Closing> verify(const Pose2& T_world_robot, const ConstellationSearch::Found& found,
+                                double t);
   bool contradicts(const std::vector<Closing::Twins>& twins) const;
 
   LocalBelief& belief_;

@@ -8,8 +8,8 @@
 namespace seif {
 namespace {
 
-constexpr double kept_share = 0.75;      // [-] of the pairs that must agree by the filter's covariance
-constexpr std::size_t fewest_kept = 3;   // [-] and at least so many
+constexpr double kept_share = 0.75;     // [-] of the pairs that must agree by the filter's covariance
+constexpr std::size_t fewest_kept = 3;  // [-] and at least so many
 
 }  // namespace
 

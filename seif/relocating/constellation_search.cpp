@@ -10,17 +10,18 @@
 namespace seif {
 namespace {
 
-constexpr std::int64_t most_poses = 2000;  // [-] that a call looks at, after which it begins no further corner
+constexpr std::int64_t most_poses =
+    2000;  // [-] that a call looks at, after which it begins no further corner
 constexpr std::int64_t most_poses_of_corner = 30'000;  // [-]
-constexpr std::size_t most_hypotheses = 8;  // [-] that are kept
-constexpr std::size_t fewest_fitting = 3;   // [-] points of a pose that is remembered
-constexpr std::size_t corners_before = 8;   // [-] that must have been looked from before a pose is told
-constexpr double least_share = 0.6;         // [-] of what lies among the points that fit
-constexpr double least_lead = 9.2;          // [nat] over any other pose
-constexpr int climbs = 5;                   // [-] of pairs and pose in turn
-constexpr double alike_m = 1.0;             // [m]
-constexpr double alike_rad = 0.2;           // [rad]
-constexpr std::size_t most_counted = 256;   // [-] landmarks, for their density
+constexpr std::size_t most_hypotheses = 8;             // [-] that are kept
+constexpr std::size_t fewest_fitting = 3;              // [-] points of a pose that is remembered
+constexpr std::size_t corners_before = 8;  // [-] that must have been looked from before a pose is told
+constexpr double least_share = 0.6;        // [-] of what lies among the points that fit
+constexpr double least_lead = 9.2;         // [nat] over any other pose
+constexpr int climbs = 5;                  // [-] of pairs and pose in turn
+constexpr double alike_m = 1.0;            // [m]
+constexpr double alike_rad = 0.2;          // [rad]
+constexpr std::size_t most_counted = 256;  // [-] landmarks, for their density
 
 }  // namespace
 

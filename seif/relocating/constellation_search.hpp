@@ -27,7 +27,8 @@ class ConstellationSearch {
 
   struct Points {
     std::vector<Eigen::Vector2d> p_local;  // [m]
-    std::vector<LandmarkId> own;  // the landmarks of the map that they are, which they are not taken for; or empty
+    std::vector<LandmarkId>
+        own;  // the landmarks of the map that they are, which they are not taken for; or empty
   };
   /// The points of the local map that are around the robot now, the nearest first. `T_world_robot`: what the filter
   /// believes. The nearer to that, the fewer other places have to be excluded.
@@ -37,6 +38,9 @@ class ConstellationSearch {
   void look_from(std::size_t corner, std::int64_t most_poses);
   /// Those of one point after the other, going on with each call, until enough poses have been looked at.
   void look_around();
+
+  /// Takes into account that the local map may lie there.
+  void consider(const Pose2& T_world_local) { try_pose(climb(T_world_local)); }
 
   struct Found {
     Pose2 T_world_local;
@@ -67,6 +71,10 @@ class ConstellationSearch {
   bool is_alike(const Pose2& a, const Pose2& b) const;
   void pair(const Pose2& T_world_local, std::vector<Pairing>& pairs) const;
   Pose2 climb(Pose2 T_world_local, std::vector<Pairing>& pairs) const;
+  Pose2 climb(const Pose2& T_world_local) const {
+    std::vector<Pairing> pairs;
+    return climb(T_world_local, pairs);
+  }
   void rate(Hypothesis& hypothesis) const;
   void find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const;
   double density_at(const Pose2& T_world_local) const;

@@ -28,7 +28,8 @@ struct Placement {
 };
 
 /// Landmarks at hand, in the frame of the robot as the filter believes it: T_world_robot.
-Surroundings surroundings_of(const LocalBelief& belief, const Pose2& T_world_robot, std::vector<LandmarkId> ids);
+Surroundings surroundings_of(const LocalBelief& belief, const Pose2& T_world_robot,
+                             std::vector<LandmarkId> ids);
 
 /// From two points in the frame of the robot, and where they are in the world.
 Pose2 pose_from(const Eigen::Vector2d& a_robot, const Eigen::Vector2d& b_robot,

@@ -14,7 +14,8 @@ constexpr double nears = 5.0;            // [-] the same, of near()
 
 void SettledConstellations::widen(double range, double sighting_sd) {
   reach_ = std::max(reach_, range);
-  sighting_sd_ = std::max(sighting_sd_, sighting_sd);
+  ++sightings_;
+  sighting_sd_ += (sighting_sd - sighting_sd_) / static_cast<double>(sightings_);
 }
 
 void SettledConstellations::keep_up(int scan) {

@@ -48,7 +48,9 @@ class SettledConstellations {
 
   const LandmarkGrid& grid_;
   std::optional<ConstellationIndex> index_;  // made once it is known how exactly the robot sees
-  double near_ = 0.0, reach_ = 0.0, sighting_sd_ = 0.0;
+  double near_ = 0.0, reach_ = 0.0;
+  double sighting_sd_ = 0.0;    // [m] mean
+  std::int64_t sightings_ = 0;  // [-]
   std::vector<Young> young_;
   std::size_t next_young_ = 0;
   std::vector<LandmarkId> just_settled_;
