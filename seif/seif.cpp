@@ -350,7 +350,8 @@ void Seif::solve_window(double t) {
 /// Drops the links in a burst: this costs less, and keeps more information, than enforcing the bound at each
 /// update.
 void Seif::sparsify(double t) {
-  choose_surplus(state_, {.theta_x = options_.theta_x, .theta_max = options_.theta_max}, to_drop_);
+  const int most = options_.theta_max + active_start_points(state_);  // theta_max is of landmarks
+  choose_surplus(state_, {.theta_x = options_.theta_x, .theta_max = most}, to_drop_);
   if (to_drop_.empty()) return;
   const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
   if (!anchoring) throw NumericalFailure("sparsification", t);

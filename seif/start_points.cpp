@@ -25,6 +25,11 @@ void relate_to_start(InformationState& state, const Eigen::Matrix3d& covariance)
   state.Omega() += apart * apart.transpose() / covariance.topLeftCorner<2, 2>().trace();
 }
 
+int active_start_points(const InformationState& state) {
+  if (state.landmark_count() == 0 || !is_start_point(state.id(0))) return 0;
+  return (state.position(0) >= 0 ? 1 : 0) + (state.position(1) >= 0 ? 1 : 0);
+}
+
 Counts without_start_points(const InformationState& state, Counts counts) {
   if (state.landmark_count() == 0 || !is_start_point(state.id(0))) return counts;
   const auto row_of = [&](int slot) { return InformationState::row_of(state.position(slot)); };

@@ -22,6 +22,9 @@ inline constexpr double start_point_sd = 1e-7;
 /// information about moving and turning everything. To be called before anything else changes the state.
 void relate_to_start(InformationState& state, const Eigen::Matrix3d& covariance);
 
+/// [-] Start points that are linked to the robot.
+int active_start_points(const InformationState& state);
+
 /// The links and the active landmarks among `counts` without those of start points.
 Counts without_start_points(const InformationState& state, Counts counts);
 

@@ -12,8 +12,12 @@
 namespace seif {
 namespace {
 
-/// [-] Within this v' Q^-1 v by the sensor's noise alone nothing has to be computed.
+/// [-] The chi-square quantile of two degrees of freedom at 1 - 1e-6. Within it by the sensor's noise alone, v' Q^-1 v,
+/// nothing has to be computed.
 constexpr double near_enough = 27.63;
+/// Whether the filter's gate shuts out so much that it may be the pose that is wrong:
+constexpr int most_shut_out_scans = 3;               // [-] in a row, of which it uses nothing
+constexpr std::int64_t most_shut_out = 4;            // [-] observations of known landmarks
 constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are used
 constexpr std::size_t most_bases = 12;   // [-] of these, for hypotheses
 constexpr int fewest_scans = 2;          // [-] of a local map
@@ -47,9 +51,12 @@ void RelocatingFilter::motion_update(const Odometry& odometry) {
 
 void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
   const bool was_home = !has_doubt_;
-  if (was_home && (is_near_expected(scan) || judge(scan) != Verdict::contradicts) && !has_vanished(scan)) {
+  if (was_home && !is_shut_out() && (is_near_expected(scan) || judge(scan) != Verdict::contradicts) &&
+      !has_vanished(scan)) {
     remember(scan);
+    const std::int64_t gated_before = filter_->counts().gated;
     filter_->measurement_update(scan, done);
+    note_gated(gated_before);
     return;
   }
   if (was_home) begin_search();
@@ -64,6 +71,18 @@ void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& don
   filter_->measurement_update(empty_, done);
 }
 
+/// By the filter's own gate: all that it has seen of known landmarks lately.
+void RelocatingFilter::note_gated(std::int64_t before) {
+  const Counts counts = filter_->counts();
+  if (counts.innovation_degrees > 0) {
+    shut_out_scans_ = 0;
+    shut_out_ = 0;
+  } else if (counts.gated > before) {
+    ++shut_out_scans_;
+    shut_out_ += counts.gated - before;
+  }
+}
+
 /// So near to what the filter expects that no covariance has to be known.
 bool RelocatingFilter::is_near_expected(const Scan& scan) const {
   const Pose2 pose = filter_->pose();
@@ -75,7 +94,12 @@ bool RelocatingFilter::is_near_expected(const Scan& scan) const {
   });
 }
 
-/// By the majority of its observations of known landmarks.
+bool RelocatingFilter::is_shut_out() const {
+  return shut_out_scans_ >= most_shut_out_scans && shut_out_ >= most_shut_out;
+}
+
+/// By the majority of its observations of known landmarks. Where the filter's gate has begun the search, they must come
+/// as near as a consistent filter expects.
 RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
   ids_.clear();
   for (const Observation& z : scan.observations) {
@@ -98,7 +122,7 @@ RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
     P << Sigma.topLeftCorner<3, 3>(), Sigma.block<3, 2>(0, row), Sigma.block<2, 3>(row, 0),
         Sigma.block<2, 2>(row, row);
     const Eigen::Matrix2d S = J * P * J.transpose() + z.covariance;
-    if (!(expected.v.dot(S.inverse() * expected.v) <= contradiction)) ++against;
+    if (!(expected.v.dot(S.inverse() * expected.v) <= (is_shut_out() ? near_enough : contradiction))) ++against;
     row += 2;
   }
   return 2 * against > ids_.size() ? Verdict::contradicts : Verdict::fits;
@@ -140,6 +164,8 @@ void RelocatingFilter::begin_search() {
 
 void RelocatingFilter::end_search() {
   has_doubt_ = false;
+  shut_out_scans_ = 0;
+  shut_out_ = 0;
   local_.end();
 }
 

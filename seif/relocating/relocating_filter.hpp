@@ -32,6 +32,8 @@ class RelocatingFilter final : public FilterAround {
   enum class Verdict { fits, contradicts, says_nothing };
 
   bool is_near_expected(const Scan& scan) const;
+  bool is_shut_out() const;
+  void note_gated(std::int64_t before);
   Verdict judge(const Scan& scan);
   bool has_vanished(const Scan& scan);
   void begin_search();
@@ -53,6 +55,8 @@ class RelocatingFilter final : public FilterAround {
   bool has_doubt_ = false;                 // the filter gets empty scans
   int fitting_scans_ = 0;                  // [-] in a row, while in doubt
   std::int64_t held_back_ = 0;             // [-] observations
+  int shut_out_scans_ = 0;                 // [-] by the filter's gate, in a row
+  std::int64_t shut_out_ = 0;              // [-] observations of these
   double reach_ = 0.0, widest_bearing_ = 0.0;
   std::vector<LandmarkId> last_seen_;  // by the last scan that saw something
   Scan empty_;
