@@ -123,18 +123,13 @@ void AssociatingFilter::refresh_grid() {
 /// been seen: those that should be seen and are not. Zero if most of what is seen is known, or nothing is.
 double AssociatingFilter::doubt_of(const Scan& scan) const {
   const auto observed = static_cast<int>(scan.observations.size());
-  std::vector<LandmarkId> seen;
-  for (int i = 0; i < observed; ++i) {
-    if (matcher_.match(i) != ScanMatcher::none)
-      seen.push_back(asked_[static_cast<std::size_t>(matcher_.match(i))]);
-  }
-  const auto paired = static_cast<int>(seen.size());
+  const int paired = pairs_found(observed);
   if (observed < fewest_compared || 2 * paired >= observed) return 0.0;
   int missed = 0;
   double doubt = 0.0;
   for (const LandmarkId id : at_hand_) {
     const bool was_just_seen = landmark(id).last_seen == last_home_;
-    if (std::ranges::find(seen, id) != seen.end() || !(was_just_seen || should_see(id))) continue;
+    if (!(was_just_seen || should_see(id)) || is_paired(id, observed)) continue;
     ++missed;
     const double share = (landmark(id).seen + 1.0) / (landmark(id).expected + 2.0);  // Laplace's rule
     doubt -= std::log(1.0 - share);
@@ -143,15 +138,31 @@ double AssociatingFilter::doubt_of(const Scan& scan) const {
   return comparable >= fewest_compared && 2 * paired < comparable ? doubt : 0.0;
 }
 
-/// Scans in a row that do not fit begin a search.
+int AssociatingFilter::pairs_found(int observed) const {
+  return static_cast<int>(std::ranges::count_if(
+      std::views::iota(0, observed), [&](int i) { return matcher_.match(i) != ScanMatcher::none; }));
+}
+
+bool AssociatingFilter::is_paired(LandmarkId id, int observed) const {
+  return std::ranges::any_of(std::views::iota(0, observed), [&](int i) {
+    const int match = matcher_.match(i);
+    return match != ScanMatcher::none && asked_[static_cast<std::size_t>(match)] == id;
+  });
+}
+
+/// What the filter expects is broken off by scans in a row that do not fit: they are held back, and begin a search as
+/// soon as chance is out of the question.
 bool AssociatingFilter::is_lost(const Scan& scan) {
   UnnamedSearch& search = finder_->lost;
   if (!search.is_on()) {
     const double doubt = doubt_of(scan);
-    doubt_ = doubt >= some_doubt ? doubt_ + doubt : 0.0;
-    if (doubt_ == 0.0) return false;
-    if (doubt_ == doubt) return true;
-    if (doubt_ < most_doubt) return true;
+    if (doubt < some_doubt) {
+      doubt_ = 0.0;
+      return false;
+    }
+    const bool is_first = doubt_ == 0.0;
+    doubt_ += doubt;
+    if (is_first || doubt_ < most_doubt) return true;
     finder_->map.settle_all();
     if (finder_->map.is_empty()) return false;
     fitting_ = 0;
@@ -161,10 +172,9 @@ bool AssociatingFilter::is_lost(const Scan& scan) {
   }
   // An outlier of a whole scan: what comes soon afterwards fits again.
   ++searched_;
-  const auto paired = std::ranges::count_if(std::views::iota(0, static_cast<int>(scan.observations.size())),
-                                            [&](int i) { return matcher_.match(i) != ScanMatcher::none; });
-  const bool fits = paired >= fewest_compared && 2 * paired > std::ssize(scan.observations);
-  fitting_ = fits ? fitting_ + 1 : 0;
+  const auto observed = static_cast<int>(scan.observations.size());
+  const int paired = pairs_found(observed);
+  fitting_ = paired >= fewest_compared && 2 * paired > observed ? fitting_ + 1 : 0;
   if (searched_ > scans_to_fit_again || fitting_ < 2) return true;
   search.end();
   doubt_ = 0.0;

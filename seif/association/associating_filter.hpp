@@ -85,6 +85,8 @@ class AssociatingFilter final : public FilterAround {
 
   bool is_lost(const Scan& scan);
   double doubt_of(const Scan& scan) const;
+  int pairs_found(int observed) const;
+  bool is_paired(LandmarkId id, int observed) const;
   void look_for_place(const Scan& scan);
   void look_for_closing(double t);
   void close(const Closing& closing);

@@ -15,6 +15,8 @@ class LocalMap {
   /// Makes a filter that has a local belief.
   using MakeFilter = std::function<std::unique_ptr<Estimator>(const EstimatorSetup&)>;
 
+  static constexpr std::size_t most_carried = 64;  // [-] landmarks that a relocation brings into the map
+
   LocalMap(MakeFilter make_filter, const Pose2& T_robot_sensor)
       : make_filter_(std::move(make_filter)), T_robot_sensor_(T_robot_sensor) {}
 

@@ -18,7 +18,7 @@ constexpr double near_enough = 27.63;
 /// Whether the filter's gate shuts out so much that it may be the pose that is wrong:
 constexpr int most_shut_out_scans = 3;               // [-] in a row, of which it uses nothing
 constexpr std::int64_t most_shut_out = 4;            // [-] observations of known landmarks
-constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are used
+constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are looked for
 constexpr std::size_t most_bases = 12;   // [-] of these, for hypotheses
 constexpr int fewest_scans = 2;          // [-] of a local map
 constexpr int scans_until_trusted = 3;   // [-] in a row that fit again
@@ -189,7 +189,7 @@ void RelocatingFilter::search(const Scan& scan) {
   if (local_.scans() < fewest_scans) return;
   surroundings_ = local_.read(scan.t, most_around);
   pair_by_names();
-  if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement);
+  if (const std::optional<Placement> placement = place(scan.t)) tell_filter(*placement, scan.t);
 }
 
 void RelocatingFilter::pair_by_names() {
@@ -242,7 +242,9 @@ std::optional<Placement> RelocatingFilter::place(double t) {
 }
 
 /// Landmarks that are known, and lie elsewhere, are left out.
-void RelocatingFilter::tell_filter(const Placement& placement) {
+void RelocatingFilter::tell_filter(const Placement& placement, double t) {
+  surroundings_ = local_.read(t, LocalMap::most_carried);  // those that were looked for come first
+  pair_by_names();
   std::vector<bool> is_used(surroundings_.size(), true);
   for (const Pairing& pair : known_) is_used[pair.around] = false;
   for (const Pairing& pair : placement.pairs) is_used[pair.around] = true;

@@ -43,7 +43,7 @@ class RelocatingFilter final : public FilterAround {
   void pair_by_names();
   bool choose_most_that_agree(Placement& placement) const;
   std::optional<Placement> place(double t);
-  void tell_filter(const Placement& placement);
+  void tell_filter(const Placement& placement, double t);
   void remember(const Scan& scan);
 
   LocalBelief& belief_;

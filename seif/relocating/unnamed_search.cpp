@@ -1,5 +1,8 @@
 #include "seif/relocating/unnamed_search.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -9,7 +12,9 @@
 namespace seif {
 namespace {
 
-constexpr std::size_t most_points = 24;  // [-] landmarks of the local map that are used
+constexpr std::size_t most_points = 24;  // [-] landmarks of the local map that are looked for
+constexpr std::ptrdiff_t fewest_compared = 2;  // [-] observations of a scan that says something
+constexpr int scans_to_break = 3;              // [-]
 
 }  // namespace
 
@@ -22,8 +27,22 @@ UnnamedSearch::UnnamedSearch(LocalBelief& belief, const SettledConstellations& m
       most_log_chance_(most_log_chance) {}
 
 void UnnamedSearch::begin() {
+  end();
   local_.begin();
   search_.emplace(map_.grid(), map_.index(), map_.near());
+  has_fitted_ = false;
+  broken_ = 0;
+}
+
+/// Whether the robot has lost its place in the local map, too: scans in a row in which most of what is seen is unknown.
+bool UnnamedSearch::breaks_off(const Scan& scan) {
+  const auto observed = std::ssize(scan.observations);
+  if (observed < fewest_compared) return false;
+  const auto unknown = std::ranges::count(local_.filter().associations(), no_landmark);
+  const bool fits = 2 * unknown <= observed;
+  has_fitted_ = has_fitted_ || fits;
+  broken_ = has_fitted_ && !fits ? broken_ + 1 : 0;
+  return broken_ >= scans_to_break;
 }
 
 void UnnamedSearch::end() {
@@ -34,7 +53,8 @@ void UnnamedSearch::end() {
 
 std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, const Pose2& T_world_robot) {
   local_.measurement_update(scan);
-  const Surroundings surroundings = local_.read(scan.t, most_points);
+  if (breaks_off(scan)) begin();
+  const Surroundings surroundings = local_.read(scan.t, most_points);  // the first of those that are carried over
   const Pose2 T_local_robot = local_.filter().pose();
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < surroundings.size(); ++i) points.push_back(T_local_robot * surroundings.at(i));
@@ -50,7 +70,7 @@ std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, co
   if (!place(belief_, surroundings, *found, T_local_robot, placement) ||
       log_chance(surroundings.size(), *found, placement) > most_log_chance_)
     return std::nullopt;
-  return named_relocation(belief_, map_, surroundings, placement, T_world_robot);
+  return named_relocation(belief_, map_, local_.read(scan.t, LocalMap::most_carried), placement, T_world_robot);
 }
 
 }  // namespace seif

@@ -33,11 +33,15 @@ class UnnamedSearch {
   std::size_t memory_bytes() const { return local_.is_begun() ? local_.filter().memory_bytes() : 0; }
 
  private:
+  bool breaks_off(const Scan& scan);
+
   LocalBelief& belief_;
   const SettledConstellations& map_;
   LocalMap local_;
   double most_log_chance_;
   std::optional<ConstellationSearch> search_;
+  bool has_fitted_ = false;  // the local map, to a scan
+  int broken_ = 0;           // [-] scans in a row that do not fit to it
   std::int64_t work_ = 0;
 };
 

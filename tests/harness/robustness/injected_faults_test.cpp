@@ -133,11 +133,12 @@ TEST(Outlier, OfTwoSigmaIsNoNews) {
 
 TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {
   const TemporaryFolder folder;
-  const worlds::World world = world_with({{.kind = FaultKind::encoder_jump,
+  worlds::World world = world_with({{.kind = FaultKind::encoder_jump,
                                            .at = at,
                                            .wheel = worlds::Wheel::right,
                                            .jump = std::numbers::pi,
                                            .to = {}}});
+  for (worlds::EstimatorChoice& estimator : world.estimators) estimator.options["relocate"] = "never";
   const RunResult result = run_live(world, folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators) {
     ASSERT_TRUE(score.diverged_t) << score.name;
@@ -154,6 +155,23 @@ TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {
   }
   EXPECT_NEAR(largest_turn, 0.1 * std::numbers::pi / 0.4, 0.1);
   expect_nothing_infinite_in(folder / "run");
+}
+
+TEST(EncoderJump, IsForgottenByAFilterThatLooksForItsPlace) {
+  const TemporaryFolder folder;
+  const worlds::World world = world_with({{.kind = FaultKind::encoder_jump,
+                                           .at = at,
+                                           .wheel = worlds::Wheel::right,
+                                           .jump = std::numbers::pi,
+                                           .to = {}}});
+  const RunResult result = run_live(world, folder / "run");
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    EXPECT_EQ(score.relocations, 1) << score.name;
+    EXPECT_EQ(score.losses.found(), 1) << score.name;
+    EXPECT_EQ(score.losses.found_wrongly(), 0) << score.name;
+    EXPECT_FALSE(score.diverged_nees_t) << score.name;
+    EXPECT_LT(score.landmarks.rmse_aligned, 0.05) << score.name;
+  }
 }
 
 /// The times of one kind of event in a recorded run.
@@ -237,9 +255,15 @@ TEST_P(Found, IsTheRobotAfterAKidnappingAndTheMapStaysRight) {
   const TemporaryFolder folder;
   worlds::World world = world_with({kidnapping()});
   world.landmark_sensor.ids = GetParam() ? worlds::LandmarkIds::known : worlds::LandmarkIds::hidden;
+  // Not on a ring, which looks the same from many places.
+  for (std::size_t i = 0; i < world.landmarks.size(); ++i)
+    world.landmarks[i].position *= 0.8 + 0.4 * std::sin(37.0 * static_cast<double>(i * i + 1));
   const RunResult result = run_live(world, folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators) {
     EXPECT_EQ(score.relocations, 1) << score.name;
+    EXPECT_EQ(score.losses.count(), 1) << score.name;
+    EXPECT_EQ(score.losses.found(), 1) << score.name;
+    EXPECT_EQ(score.losses.found_wrongly(), 0) << score.name;
     EXPECT_FALSE(score.diverged_nees_t) << score.name;
     EXPECT_LT(score.landmarks.rmse_aligned, 0.05) << score.name;
     EXPECT_LT(score.nees_pose_final, 10.0) << score.name;
