@@ -28,7 +28,7 @@ constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
 constexpr int fewest_compared = 2;   // [-] observations or landmarks, for a scan to say that it does not fit
 constexpr double some_doubt = 4.6;   // [nat] log 100
-constexpr double most_doubt = 13.8;  // [nat] log 1e6
+constexpr double most_doubt = 27.6;  // [nat] log 1e12, since what hides one landmark hides others, too
 constexpr int scans_to_fit_again = 5;  // [-] after which only the search tells where the robot is
 constexpr int lately = 15;             // [-] scans
 

@@ -16,12 +16,12 @@ namespace {
 /// nothing has to be computed.
 constexpr double near_enough = 27.63;
 /// Whether the filter's gate shuts out so much that it may be the pose that is wrong:
-constexpr int most_shut_out_scans = 3;               // [-] in a row, of which it uses nothing
-constexpr std::int64_t most_shut_out = 4;            // [-] observations of known landmarks
-constexpr std::size_t most_around = 24;  // [-] landmarks of the local map that are looked for
-constexpr std::size_t most_bases = 12;   // [-] of these, for hypotheses
-constexpr int fewest_scans = 2;          // [-] of a local map
-constexpr int scans_until_trusted = 3;   // [-] in a row that fit again
+constexpr int most_shut_out_scans = 3;     // [-] in a row, of which it uses nothing
+constexpr std::int64_t most_shut_out = 4;  // [-] observations of known landmarks
+constexpr std::size_t most_around = 24;    // [-] landmarks of the local map that are looked for
+constexpr std::size_t most_bases = 12;     // [-] of these, for hypotheses
+constexpr int fewest_scans = 2;            // [-] of a local map
+constexpr int scans_until_trusted = 3;     // [-] in a row that fit again
 /// Two landmarks that agree lie within this of where they should, before their covariances are known.
 constexpr double rough_m = 0.5;  // [m]
 constexpr double rough = 0.1;    // [-] of their distance
@@ -122,7 +122,8 @@ RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
     P << Sigma.topLeftCorner<3, 3>(), Sigma.block<3, 2>(0, row), Sigma.block<2, 3>(row, 0),
         Sigma.block<2, 2>(row, row);
     const Eigen::Matrix2d S = J * P * J.transpose() + z.covariance;
-    if (!(expected.v.dot(S.inverse() * expected.v) <= (is_shut_out() ? near_enough : contradiction))) ++against;
+    if (!(expected.v.dot(S.inverse() * expected.v) <= (is_shut_out() ? near_enough : contradiction)))
+      ++against;
     row += 2;
   }
   return 2 * against > ids_.size() ? Verdict::contradicts : Verdict::fits;

@@ -12,7 +12,7 @@
 namespace seif {
 namespace {
 
-constexpr std::size_t most_points = 24;  // [-] landmarks of the local map that are looked for
+constexpr std::size_t most_points = 24;        // [-] landmarks of the local map that are looked for
 constexpr std::ptrdiff_t fewest_compared = 2;  // [-] observations of a scan that says something
 constexpr int scans_to_break = 3;              // [-]
 
@@ -54,7 +54,8 @@ void UnnamedSearch::end() {
 std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, const Pose2& T_world_robot) {
   local_.measurement_update(scan);
   if (breaks_off(scan)) begin();
-  const Surroundings surroundings = local_.read(scan.t, most_points);  // the first of those that are carried over
+  const Surroundings surroundings =
+      local_.read(scan.t, most_points);  // the first of those that are carried over
   const Pose2 T_local_robot = local_.filter().pose();
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < surroundings.size(); ++i) points.push_back(T_local_robot * surroundings.at(i));
@@ -70,7 +71,8 @@ std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, co
   if (!place(belief_, surroundings, *found, T_local_robot, placement) ||
       log_chance(surroundings.size(), *found, placement) > most_log_chance_)
     return std::nullopt;
-  return named_relocation(belief_, map_, local_.read(scan.t, LocalMap::most_carried), placement, T_world_robot);
+  return named_relocation(belief_, map_, local_.read(scan.t, LocalMap::most_carried), placement,
+                          T_world_robot);
 }
 
 }  // namespace seif

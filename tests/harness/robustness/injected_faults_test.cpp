@@ -134,10 +134,10 @@ TEST(Outlier, OfTwoSigmaIsNoNews) {
 TEST(EncoderJump, IsOdometryThatTheInnovationsContradict) {
   const TemporaryFolder folder;
   worlds::World world = world_with({{.kind = FaultKind::encoder_jump,
-                                           .at = at,
-                                           .wheel = worlds::Wheel::right,
-                                           .jump = std::numbers::pi,
-                                           .to = {}}});
+                                     .at = at,
+                                     .wheel = worlds::Wheel::right,
+                                     .jump = std::numbers::pi,
+                                     .to = {}}});
   for (worlds::EstimatorChoice& estimator : world.estimators) estimator.options["relocate"] = "never";
   const RunResult result = run_live(world, folder / "run");
   for (const EstimatorScore& score : result.summary.score.estimators) {
