@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <ranges>
 #include <stdexcept>
 
@@ -26,6 +27,8 @@ constexpr int never = -1'000'000;                 // [-] of these, for two that 
 // Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
 constexpr double sure_reach = 0.8;
 constexpr double sure_bearing = 0.9;
+constexpr double edge = 0.95;                          // [-] of the view
+constexpr double all_round = 0.95 * std::numbers::pi;  // [rad]
 constexpr int fewest_compared = 2;   // [-] observations or landmarks, for a scan to say that it does not fit
 constexpr double some_doubt = 4.6;   // [nat] log 100
 constexpr double most_doubt = 27.6;  // [nat] log 1e12, since what hides one landmark hides others, too
@@ -128,8 +131,8 @@ double AssociatingFilter::doubt_of(const Scan& scan) const {
   int missed = 0;
   double doubt = 0.0;
   for (const LandmarkId id : at_hand_) {
-    const bool was_just_seen = landmark(id).last_seen == last_home_;
-    if (!(was_just_seen || should_see(id)) || is_paired(id, observed)) continue;
+    const bool is_due = landmark(id).last_seen == last_home_ ? is_in_view(id) : should_see(id);
+    if (!is_due || is_paired(id, observed)) continue;
     ++missed;
     const double share = (landmark(id).seen + 1.0) / (landmark(id).expected + 2.0);  // Laplace's rule
     doubt -= std::log(1.0 - share);
@@ -242,11 +245,20 @@ LandmarkId AssociatingFilter::new_name(const Eigen::Vector2d& p_world) {
   return id;
 }
 
-/// From the pose that the filter believes: it is well within the ranges and bearings at which things are seen.
+/// From the pose that the filter believes: it is well within the ranges and bearings at which it was seen.
 bool AssociatingFilter::should_see(LandmarkId id) const {
+  return is_within(id, sure_reach * landmark(id).farthest, sure_bearing * widest_bearing_);
+}
+
+/// What was just seen may only have come to the edge of the view.
+bool AssociatingFilter::is_in_view(LandmarkId id) const {
+  const bool is_all_round = widest_bearing_ > all_round;
+  return is_within(id, reach_, is_all_round ? std::numbers::pi : edge * widest_bearing_);
+}
+
+bool AssociatingFilter::is_within(LandmarkId id, double range, double bearing) const {
   const Eigen::Vector2d p_sensor = inverse(filter_->pose() * T_robot_sensor_) * belief_.mean_of(id);
-  return p_sensor.norm() <= sure_reach * landmark(id).farthest &&
-         std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= sure_bearing * widest_bearing_;
+  return p_sensor.norm() <= range && std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= bearing;
 }
 
 // Candidates.

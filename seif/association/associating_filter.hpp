@@ -94,6 +94,8 @@ class AssociatingFilter final : public FilterAround {
   void rename(LandmarkId from, LandmarkId to);
   LandmarkId new_name(const Eigen::Vector2d& p_world);
   bool should_see(LandmarkId id) const;
+  bool is_in_view(LandmarkId id) const;
+  bool is_within(LandmarkId id, double range, double bearing) const;
   void refresh_grid();
   void find_pairs(const Scan& scan);
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);

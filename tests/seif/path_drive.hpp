@@ -46,6 +46,7 @@ class PathDrive {
 
   const Odometry& odometry() const { return odometry_; }
   const Scan& scan() const { return scan_; }
+  const Pose2& truth() const { return truth_; }  // T_world_robot
 
  private:
   void turn_to_next() {

@@ -344,8 +344,11 @@ Work work_at_the_end_of(double length) {
   Work work;
   std::vector<std::int64_t> blocks;  // of each update
   blocks.reserve(10'000);
+  const auto make_local = [](const EstimatorSetup& setup) {
+    return std::make_unique<AssociatingFilter>(named_filter("seif", setup), setup, AssociationOptions{});
+  };
   AssociatingFilter filter(std::make_unique<Metered>(drive.setup(), work.allocations_of_filter),
-                           drive.setup(), {});
+                           drive.setup(), {}, make_local);  // it looks for its place, if it is lost
   const auto warm_up = static_cast<int>(2.0 * (length + 5.0 * to_and_fro));
   for (int step = 0; !drive.at_end(); ++step) {
     drive.advance();

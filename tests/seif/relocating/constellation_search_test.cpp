@@ -4,18 +4,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
 #include "seif/association/constellation_index.hpp"
+#include "seif/relocating/scattered.hpp"
 
 namespace seif {
 namespace {
 
-constexpr double sighting_sd = 0.05;  // [m]
-constexpr double reach = 6.0;         // [m]
+using test::Points;
+using test::reach;
+using test::scattered;
+using test::sighting_sd;
 
 /// A map of landmarks, found by place and by constellation.
 struct Map {
@@ -28,27 +34,8 @@ struct Map {
   }
 };
 
-using Points = std::vector<Eigen::Vector2d>;
-
-Points scattered(int count, double side, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> place(0.0, side);
-  Points points;
-  for (int i = 0; i < count; ++i) points.emplace_back(place(random), place(random));
-  return points;
-}
-
-/// What a robot at T_world_robot has around it, with errors, in its own frame; the nearest first.
 Points around(const Points& landmarks, const Pose2& T_world_robot, std::mt19937_64& random) {
-  std::normal_distribution<double> error(0.0, 0.4 * sighting_sd);
-  Points points;
-  for (const Eigen::Vector2d& p : landmarks) {
-    const Eigen::Vector2d p_robot = inverse(T_world_robot) * p;
-    if (p_robot.norm() <= reach)
-      points.emplace_back(p_robot.x() + error(random), p_robot.y() + error(random));
-  }
-  std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return p.norm(); });
-  if (points.size() > 24) points.resize(24);
-  return points;
+  return test::around(landmarks, T_world_robot, 0.4 * sighting_sd, 24, random);
 }
 
 std::optional<ConstellationSearch::Found> found_in(const Map& map, const Points& points) {
@@ -79,6 +66,59 @@ TEST(ConstellationSearch, FindsThePlaceWhereverTheRobotStandsAndHoweverItIsTurne
     EXPECT_NEAR(wrap_angle(pose->T_world_local.theta - there.theta), 0.0, 0.05);
   }
   EXPECT_GE(found, tries * 9 / 10);
+}
+
+/// How many of the points have a landmark within `near`, for the best of all poses that two points and two landmarks give.
+std::size_t most_by_brute_force(const Points& landmarks, const Points& points, double near) {
+  std::size_t most = 0;
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      const double apart = (points[a] - points[b]).norm();
+      for (const Eigen::Vector2d& to_a : landmarks) {
+        for (const Eigen::Vector2d& to_b : landmarks) {
+          if (std::abs((to_a - to_b).norm() - apart) > near) continue;
+          const Pose2 T = pose_from(points[a], points[b], to_a, to_b);
+          most = std::max(most, static_cast<std::size_t>(std::ranges::count_if(points, [&](const auto& p) {
+                            return std::ranges::any_of(
+                                landmarks, [&](const auto& m) { return (m - T * p).norm() <= near; });
+                          })));
+        }
+      }
+    }
+  }
+  return most;
+}
+
+// A quarter of the maps repeats itself, turned and moved; the robot sees a third of clutter.
+TEST(ConstellationSearch, TellsOfNoPlaceThatBruteForceWouldNotPrefer) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> place(0.0, 20.0);
+  int told = 0;
+  int told_in_symmetric_map = 0;
+  for (int i = 0; i < 60; ++i) {
+    Points landmarks = scattered(36, 20.0, random);
+    const bool is_symmetric = i % 4 == 0;
+    const Pose2 T_copy{80.0, 5.0, 2.0};
+    for (std::size_t k = 0; is_symmetric && k < 36; ++k) landmarks.push_back(T_copy * landmarks[k]);
+    Map map;
+    for (const Eigen::Vector2d& p : landmarks) map.add(p);
+    const Pose2 there{place(random), place(random), 0.3 * i};
+    Points points = around(landmarks, there, random);
+    if (points.size() < 6) continue;
+    points.resize(std::min<std::size_t>(points.size(), 10));
+    for (const Eigen::Vector2d& p : scattered(static_cast<int>(points.size()) / 2, 8.0, random))
+      points.push_back(p - Eigen::Vector2d(4.0, 4.0));
+    const auto found = found_in(map, points);
+    if (!found) continue;
+    ++told;
+    if (is_symmetric) ++told_in_symmetric_map;
+    EXPECT_GE(found->pairs.size() + 1, most_by_brute_force(landmarks, points, 3.0 * sighting_sd))
+        << "map " << i;
+    EXPECT_NEAR(found->T_world_local.x, there.x, 0.3) << "map " << i;
+    EXPECT_NEAR(found->T_world_local.y, there.y, 0.3) << "map " << i;
+  }
+  EXPECT_GE(told, 25);
+  EXPECT_EQ(told_in_symmetric_map, 0);
 }
 
 // A lattice looks the same from every point of it.
