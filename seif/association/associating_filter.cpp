@@ -24,11 +24,6 @@ constexpr int fewest_expected = 40;               // [-] scans before a landmark
 constexpr std::size_t most_suspicions = 32;       // [-] at a time
 constexpr int scans_to_merge = 5;                 // [-] that saw one of two
 constexpr int never = -1'000'000;                 // [-] of these, for two that were seen at once
-// Of how far from it a landmark was seen, and how wide the robot sees: within these it should be seen.
-constexpr double sure_reach = 0.8;
-constexpr double sure_bearing = 0.9;
-constexpr double edge = 0.95;                          // [-] of the view
-constexpr double all_round = 0.95 * std::numbers::pi;  // [rad]
 constexpr int fewest_compared = 2;   // [-] observations or landmarks, for a scan to say that it does not fit
 constexpr double some_doubt = 4.6;   // [nat] log 100
 constexpr double most_doubt = 27.6;  // [nat] log 1e12, since what hides one landmark hides others, too
@@ -70,7 +65,7 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const Es
 
 void AssociatingFilter::motion_update(const Odometry& odometry) {
   const Eigen::Matrix3d& R = odometry.covariance;
-  wander_ += R(0, 0) + R(1, 1) + reach_ * reach_ * R(2, 2);
+  wander_ += R(0, 0) + R(1, 1) + records_.reach() * records_.reach() * R(2, 2);
   filter_->motion_update(odometry);
   if (finder_ && finder_->lost.is_on()) finder_->lost.motion_update(odometry);
 }
@@ -99,12 +94,11 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
 /// The first scan that sees something says how large the cells of the grid are.
 void AssociatingFilter::widen_view(const Scan& scan) {
   for (const Observation& observation : scan.observations) {
-    reach_ = std::max(reach_, observation.range);
-    widest_bearing_ = std::max(widest_bearing_, std::abs(observation.bearing));
+    records_.widen_view(observation.range, observation.bearing);
   }
   constexpr double least_cell = 1e-3;  // [m]
   if (!grid_ && !scan.observations.empty()) {
-    grid_.emplace(std::max(least_cell, reach_ / cells_in_reach));
+    grid_.emplace(std::max(least_cell, records_.reach() / cells_in_reach));
     if (make_local_)
       finder_.emplace(belief_, *grid_, make_local_, T_robot_sensor_, options_.wrong_place_probability);
   }
@@ -116,7 +110,7 @@ void AssociatingFilter::widen_view(const Scan& scan) {
 /// Landmarks at hand may have moved; all others wait until they are.
 void AssociatingFilter::refresh_grid() {
   belief_.landmarks_at_hand(at_hand_);
-  std::erase_if(at_hand_, [&](LandmarkId id) { return landmark(id).is_retired; });
+  std::erase_if(at_hand_, [&](LandmarkId id) { return records_[id].is_retired; });
   for (const LandmarkId id : at_hand_) grid_->move(id, belief_.mean_of(id));
 }
 
@@ -131,11 +125,11 @@ double AssociatingFilter::doubt_of(const Scan& scan) const {
   int missed = 0;
   double doubt = 0.0;
   for (const LandmarkId id : at_hand_) {
-    const bool is_due = landmark(id).last_seen == last_home_ ? is_in_view(id) : should_see(id);
+    const bool is_due = records_[id].last_seen == last_home_ ? records_.is_in_view(p_sensor(id))
+                                                             : records_.should_be_seen(id, p_sensor(id));
     if (!is_due || is_paired(id, observed)) continue;
     ++missed;
-    const double share = (landmark(id).seen + 1.0) / (landmark(id).expected + 2.0);  // Laplace's rule
-    doubt -= std::log(1.0 - share);
+    doubt -= std::log(1.0 - records_.reliability(id));
   }
   const int comparable = std::min(observed, paired + missed);
   return comparable >= fewest_compared && 2 * paired < comparable ? doubt : 0.0;
@@ -196,10 +190,7 @@ void AssociatingFilter::look_for_place(const Scan& scan) {
   for (std::size_t i = 0; i < found->surroundings.size(); ++i) {
     LandmarkId& name = found->surroundings.landmarks[i];
     if (name == no_landmark) name = new_name(found->T_world_robot * found->surroundings.at(i));
-    ++landmark(name).seen;
-    ++landmark(name).expected;
-    landmark(name).last_seen = scan_;
-    landmark(name).farthest = std::max(landmark(name).farthest, found->surroundings.at(i).norm());
+    records_.note_seen(name, scan_, found->surroundings.at(i).norm());
   }
   belief_.relocate(*found);
   finder_->lost.end();
@@ -213,7 +204,7 @@ void AssociatingFilter::look_for_closing(double t) {
   if (finder_->map.just_settled().empty()) return;
   LandmarkId oldest = std::numeric_limits<LandmarkId>::max();
   for (const LandmarkId id : at_hand_) {
-    if (landmark(id).last_seen > scan_ - lately) oldest = std::min(oldest, id);
+    if (records_[id].last_seen > scan_ - lately) oldest = std::min(oldest, id);
   }
   if (const std::optional<Closing> closing = finder_->closing.look(filter_->pose(), oldest, t))
     close(*closing);
@@ -227,7 +218,7 @@ void AssociatingFilter::close(const Closing& closing) {
   }
   belief_.relocate(*closing.relocation);
   for (const auto& [young, old] : closing.twins) {
-    landmark(old).last_seen = landmark(young).last_seen;
+    records_[old].last_seen = records_[young].last_seen;
     rename(young, old);
   }
   for (const LandmarkId id : closing.around) {
@@ -238,27 +229,15 @@ void AssociatingFilter::close(const Closing& closing) {
 }
 
 LandmarkId AssociatingFilter::new_name(const Eigen::Vector2d& p_world) {
-  const auto id = static_cast<LandmarkId>(landmarks_.size());
-  landmarks_.push_back({});
+  const LandmarkId id = records_.add();
   grid_->add(p_world);
   if (finder_) finder_->map.note_joined(id, scan_);
   return id;
 }
 
-/// From the pose that the filter believes: it is well within the ranges and bearings at which it was seen.
-bool AssociatingFilter::should_see(LandmarkId id) const {
-  return is_within(id, sure_reach * landmark(id).farthest, sure_bearing * widest_bearing_);
-}
-
-/// What was just seen may only have come to the edge of the view.
-bool AssociatingFilter::is_in_view(LandmarkId id) const {
-  const bool is_all_round = widest_bearing_ > all_round;
-  return is_within(id, reach_, is_all_round ? std::numbers::pi : edge * widest_bearing_);
-}
-
-bool AssociatingFilter::is_within(LandmarkId id, double range, double bearing) const {
-  const Eigen::Vector2d p_sensor = inverse(filter_->pose() * T_robot_sensor_) * belief_.mean_of(id);
-  return p_sensor.norm() <= range && std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= bearing;
+/// From the pose that the filter believes.
+Eigen::Vector2d AssociatingFilter::p_sensor(LandmarkId id) const {
+  return inverse(filter_->pose() * T_robot_sensor_) * belief_.mean_of(id);
 }
 
 // Candidates.
@@ -334,11 +313,7 @@ void AssociatingFilter::name(const Scan& scan) {
     const int match = matcher_.match(static_cast<int>(i));
     names_[i] = match == ScanMatcher::none ? name_if_new(i) : asked_[static_cast<std::size_t>(match)];
     if (names_[i] == no_landmark) continue;
-    Landmark& seen = landmark(names_[i]);
-    ++seen.seen;
-    ++seen.expected;
-    seen.last_seen = scan_;
-    seen.farthest = std::max(seen.farthest, scan.observations[i].range);
+    records_.note_seen(names_[i], scan_, scan.observations[i].range);
     named_.observations.push_back(scan.observations[i]);
     named_.observations.back().landmark = names_[i];
   }
@@ -371,14 +346,14 @@ bool AssociatingFilter::want_near(const Seen& seen) {
 
 void AssociatingFilter::note_expected() {
   for (const LandmarkId id : at_hand_) {
-    if (is_seen_now(id) || !should_see(id)) continue;
-    const int expected = ++landmark(id).expected;
-    if (expected > fewest_expected && landmark(id).seen < options_.remove_below * expected) retire(id);
+    if (is_seen_now(id) || !records_.should_be_seen(id, p_sensor(id))) continue;
+    const int expected = ++records_[id].expected;
+    if (expected > fewest_expected && records_[id].seen < options_.remove_below * expected) retire(id);
   }
 }
 
 void AssociatingFilter::retire(LandmarkId id) {
-  landmark(id).is_retired = true;
+  records_[id].is_retired = true;
   grid_->remove(id);
   std::erase_if(suspicions_, [&](const Suspicion& s) { return s.a == id || s.b == id; });
 }
@@ -440,7 +415,7 @@ void AssociatingFilter::merge() {
         std::ranges::find_if(suspicions_, [](const Suspicion& s) { return s.scans >= scans_to_merge; });
     if (sure == suspicions_.end()) return;
     const auto [a, b, scans, last_scan] = *sure;
-    const LandmarkId goes = landmark(b).seen <= landmark(a).seen ? b : a;
+    const LandmarkId goes = records_[b].seen <= records_[a].seen ? b : a;
     const LandmarkId stays = goes == b ? a : b;
     join(stays, goes);
   }
@@ -448,8 +423,8 @@ void AssociatingFilter::merge() {
 
 void AssociatingFilter::join(LandmarkId stays, LandmarkId goes) {
   belief_.equate(stays, goes);
-  landmark(stays).seen += landmark(goes).seen;
-  landmark(stays).last_seen = std::max(landmark(stays).last_seen, landmark(goes).last_seen);
+  records_[stays].seen += records_[goes].seen;
+  records_[stays].last_seen = std::max(records_[stays].last_seen, records_[goes].last_seen);
   retire(goes);
   rename(goes, stays);
 }
@@ -472,7 +447,7 @@ Counts AssociatingFilter::counts() const {
 }
 
 std::size_t AssociatingFilter::memory_bytes() const {
-  return filter_->memory_bytes() + landmarks_.memory_bytes() + tentative_.memory_bytes() +
+  return filter_->memory_bytes() + records_.memory_bytes() + tentative_.memory_bytes() +
          (grid_ ? grid_->memory_bytes() : 0) + (finder_ ? finder_->memory_bytes() : 0) +
          sizeof(double) * static_cast<std::size_t>(Sigma_.size());
 }
@@ -480,24 +455,22 @@ std::size_t AssociatingFilter::memory_bytes() const {
 void AssociatingFilter::landmarks(std::span<const LandmarkId> landmarks,
                                   std::vector<LandmarkEstimate>& out) const {
   looked_up_.assign(landmarks.begin(), landmarks.end());
-  std::erase_if(looked_up_, [&](LandmarkId id) { return !is_in_map(id); });
+  std::erase_if(looked_up_, [&](LandmarkId id) { return !records_.is_in_map(id); });
   filter_->landmarks(looked_up_, out);
 }
 
 void AssociatingFilter::couplings(LandmarkId of, std::vector<Coupling>& out) const {
   out.clear();
-  if (of != no_landmark && !is_in_map(of)) return;
+  if (of != no_landmark && !records_.is_in_map(of)) return;
   filter_->couplings(of, out);
-  std::erase_if(out, [&](const Coupling& c) { return c.other != no_landmark && !is_in_map(c.other); });
-}
-
-bool AssociatingFilter::is_in_map(LandmarkId id) const {
-  return id >= 0 && static_cast<std::size_t>(id) < landmarks_.size() && !landmark(id).is_retired;
+  std::erase_if(out,
+                [&](const Coupling& c) { return c.other != no_landmark && !records_.is_in_map(c.other); });
 }
 
 std::vector<LandmarkEstimate> AssociatingFilter::map() const {
   std::vector<LandmarkEstimate> map = filter_->map();
-  std::erase_if(map, [&](const LandmarkEstimate& estimate) { return !is_in_map(estimate.landmark); });
+  std::erase_if(map,
+                [&](const LandmarkEstimate& estimate) { return !records_.is_in_map(estimate.landmark); });
   return map;
 }
 
@@ -508,7 +481,7 @@ Eigen::MatrixXd AssociatingFilter::whole_belief_matrix() const {
   std::vector<int> gone;
   int row = 3;
   for (const LandmarkEstimate& estimate : filter_->map()) {
-    std::vector<int>& to = is_in_map(estimate.landmark) ? kept : gone;
+    std::vector<int>& to = records_.is_in_map(estimate.landmark) ? kept : gone;
     to.insert(to.end(), {row, row + 1});
     row += 2;
   }

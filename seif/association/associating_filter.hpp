@@ -14,9 +14,9 @@
 
 #include "seif/association/filter_around.hpp"
 #include "seif/association/landmark_grid.hpp"
+#include "seif/association/landmark_records.hpp"
 #include "seif/association/local_belief.hpp"
 #include "seif/association/tentative_landmarks.hpp"
-#include "seif/chunked_array.hpp"
 #include "seif/estimator.hpp"
 #include "seif/relocating/place_finder.hpp"
 
@@ -60,13 +60,6 @@ class AssociatingFilter final : public FilterAround {
   std::vector<LandmarkEstimate> map() const override;
 
  private:
-  struct Landmark {
-    int seen = 0;      // [-] scans that saw it
-    int expected = 0;  // [-] scans that should have
-    int last_seen = 0;
-    double farthest = 0.0;  // [m] from which it was seen
-    bool is_retired = false;
-  };
   /// Two landmarks that may be one: only one of them is seen where both should be.
   struct Suspicion {
     LandmarkId a, b;
@@ -78,10 +71,7 @@ class AssociatingFilter final : public FilterAround {
     double variance;          // [m^2] of that, by the sensor's errors alone
     double radius_by_pose;    // [m] within which the landmark may be, as far as the pose is uncertain
   };
-  Landmark& landmark(LandmarkId id) { return landmarks_[static_cast<std::size_t>(id)]; }
-  const Landmark& landmark(LandmarkId id) const { return landmarks_[static_cast<std::size_t>(id)]; }
-  bool is_in_map(LandmarkId id) const;
-  bool is_seen_now(LandmarkId id) const { return landmark(id).last_seen == scan_; }
+  bool is_seen_now(LandmarkId id) const { return records_[id].last_seen == scan_; }
 
   bool is_lost(const Scan& scan);
   double doubt_of(const Scan& scan) const;
@@ -93,9 +83,7 @@ class AssociatingFilter final : public FilterAround {
   void join(LandmarkId stays, LandmarkId goes);
   void rename(LandmarkId from, LandmarkId to);
   LandmarkId new_name(const Eigen::Vector2d& p_world);
-  bool should_see(LandmarkId id) const;
-  bool is_in_view(LandmarkId id) const;
-  bool is_within(LandmarkId id, double range, double bearing) const;
+  Eigen::Vector2d p_sensor(LandmarkId id) const;
   void refresh_grid();
   void find_pairs(const Scan& scan);
   void find_candidates(const Scan& scan, const Eigen::Matrix3d& P_x, std::size_t max_count);
@@ -119,7 +107,7 @@ class AssociatingFilter final : public FilterAround {
   double merge_gate_;  // [-]
   TentativeLandmarks tentative_;
   std::optional<LandmarkGrid> grid_;  // made once it is known how far the robot sees
-  ChunkedArray<Landmark> landmarks_;  // by name
+  LandmarkRecords records_;
   std::vector<Suspicion> suspicions_;
   LocalMap::MakeFilter make_local_;
   std::optional<PlaceFinder> finder_;  // made with the grid, if the robot is to be found
@@ -128,8 +116,7 @@ class AssociatingFilter final : public FilterAround {
   int searched_ = 0, fitting_ = 0;     // [-] scans of this search; those in a row that fit again
   std::int64_t held_back_ = 0;         // [-] observations
   int scan_ = 0;
-  double wander_ = 0.0;                        // [m^2] since the last scan
-  double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]
+  double wander_ = 0.0;  // [m^2] since the last scan
 
   // What belongs to the latest scan; kept so that no update allocates.
   std::vector<LandmarkId> names_;  // by observation
