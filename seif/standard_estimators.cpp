@@ -107,7 +107,18 @@ const OptionTable<AssociationChoice>& association_table() {
           .choice(
               "relocate", [](Choice& c) -> bool& { return c.relocates; },
               OptionChoices<bool>{{"when_lost", true}, {"never", false}},
-              "Whether a filter that has lost its place looks for it in its map, and goes on from there.");
+              "Whether a filter that has lost its place looks for it in its map, and goes on from there.")
+          .number(
+              "wrong_place_probability",
+              [](Choice& c) -> double& { return c.options.wrong_place_probability; }, {1e-30, 1.0},
+              "With an association: acts on a place that it finds in its map if the probability that one as "
+              "good "
+              "is found by chance is below this [-].")
+          .choice(
+              "closings", [](Choice& c) -> bool& { return c.options.seeks_closings; },
+              OptionChoices<bool>{{"sought", true}, {"within_gates", false}},
+              "With an association, and relocate: when_lost: whether landmarks that have joined lately are "
+              "sought among the older ones (sought), or only within the gates of single observations.");
   return table;
 }
 

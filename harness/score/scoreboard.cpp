@@ -112,16 +112,18 @@ std::string divergence_lines(const Summary& summary) {
   return text.empty() ? text : '\n' + text;
 }
 
+std::string times(int count) { return count == 1 ? "once" : fmt::format("{} times", count); }
+
 /// The estimators that lost their place, and how often they found it again; empty if there are none.
 std::string loss_lines(const Summary& summary) {
   std::string text;
   for (const EstimatorScore& score : summary.score.estimators) {
     const Losses& losses = score.losses;
     if (losses.count() == 0) continue;
-    text += fmt::format("{} was lost {} times, for {:.1f} s in all, and found its place {} times", score.name,
-                        losses.count(), losses.lost_s(), losses.found());
+    text += fmt::format("{} lost its place {}, for {:.1f} s in all, and found it {}", score.name,
+                        times(losses.count()), losses.lost_s(), times(losses.found()));
     if (losses.first_found_t()) text += fmt::format(", first at {} s", *losses.first_found_t());
-    if (losses.found_wrongly() > 0) text += fmt::format("; {} of them were wrong", losses.found_wrongly());
+    if (losses.found_wrongly() > 0) text += fmt::format(", wrongly {}", times(losses.found_wrongly()));
     text += '\n';
   }
   return text.empty() ? text : '\n' + text;

@@ -201,7 +201,7 @@ void AssociatingFilter::look_for_place(const Scan& scan) {
 /// Whether landmarks that have joined lately are in the map already.
 void AssociatingFilter::look_for_closing(double t) {
   finder_->map.keep_up(scan_);
-  if (finder_->map.just_settled().empty()) return;
+  if (!options_.seeks_closings || finder_->map.just_settled().empty()) return;
   LandmarkId oldest = std::numeric_limits<LandmarkId>::max();
   for (const LandmarkId id : at_hand_) {
     if (records_[id].last_seen > scan_ - lately) oldest = std::min(oldest, id);

@@ -37,6 +37,7 @@ struct AssociationOptions {
   double remove_below = 0.05;
   /// [-] The probability of a wrong match that is as good as one by which a lost robot is put back.
   double wrong_place_probability = 1e-6;
+  bool seeks_closings = true;  // among landmarks that are in the map already, beyond all gates
 };
 
 /// Names are 0, 1, 2, .. in the order in which landmarks join. Removed and merged landmarks stay in the filter's
