@@ -12,9 +12,12 @@
 namespace seif {
 namespace {
 
-constexpr std::size_t most_young = 24;             // [-] landmarks around the robot that are used
-constexpr std::size_t fewest_twins = 4;            // [-]
-constexpr std::int64_t most_poses_of_young = 200;  // [-] for a landmark that has settled
+constexpr std::size_t most_young = 24;   // [-] landmarks around the robot that are used
+constexpr std::size_t fewest_twins = 4;  // [-]
+constexpr ConstellationSearch::Limits limits{.triangles = 400,
+                                             .poses = 40};  // for a landmark that has settled
+constexpr double reaches =
+    4.0;  // [-] so far from where it believes itself, over what it sees, a robot may be
 
 }  // namespace
 
@@ -41,6 +44,7 @@ bool ClosingSearch::find_around(const Pose2& T_world_robot, LandmarkId oldest_se
     around_.p_local.push_back(map_.grid().position(near.landmark));
     around_.own.push_back(near.landmark);
   }
+  around_.farthest = reaches * map_.reach();
   return around_.own.size() >= fewest_twins;
 }
 
@@ -51,7 +55,7 @@ void ClosingSearch::look_from_settled(const Pose2& T_world_robot) {
   for (const LandmarkId landmark : map_.just_settled()) {
     const auto corner = std::ranges::find(around_.own, landmark);
     if (corner != around_.own.end())
-      search_->look_from(static_cast<std::size_t>(corner - around_.own.begin()), most_poses_of_young);
+      search_->look_from(static_cast<std::size_t>(corner - around_.own.begin()), limits);
   }
 }
 

@@ -12,55 +12,55 @@ namespace {
 
 constexpr std::int64_t most_poses =
     2000;  // [-] that a call looks at, after which it begins no further corner
-constexpr std::int64_t most_poses_of_corner = 30'000;  // [-]
-constexpr std::size_t most_hypotheses = 8;             // [-] that are kept
-constexpr std::size_t fewest_fitting = 3;              // [-] points of a pose that is remembered
-constexpr std::size_t corners_before = 8;  // [-] that must have been looked from before a pose is told
-constexpr double least_share = 0.6;        // [-] of what lies among the points that fit
-constexpr double least_lead = 9.2;         // [nat] over any other pose
-constexpr int climbs = 5;                  // [-] of pairs and pose in turn
-constexpr double alike_m = 1.0;            // [m]
-constexpr double alike_rad = 0.2;          // [rad]
-constexpr std::size_t most_counted = 256;  // [-] landmarks, for their density
+constexpr std::int64_t most_of_corner = 30'000;  // [-]
+constexpr std::size_t most_hypotheses = 8;       // [-] that are kept
+constexpr std::size_t fewest_fitting = 3;        // [-] points of a pose that is remembered
+constexpr std::size_t corners_before = 8;        // [-] that must have been looked from before a pose is told
+constexpr double least_share = 0.6;              // [-] of what lies among the points that fit
+constexpr double least_lead = 9.2;               // [nat] over any other pose
+constexpr int climbs = 5;                        // [-] of pairs and pose in turn
+constexpr double alike_m = 1.0;                  // [m]
+constexpr double alike_rad = 0.2;                // [rad]
+constexpr std::size_t most_counted = 256;        // [-] landmarks, for their density
 
 }  // namespace
 
 void ConstellationSearch::set_points(const Points& points, const Pose2& T_local_robot,
                                      const Pose2& T_world_robot) {
-  points_ = points.p_local;
-  own_ = points.own;
+  around_ = points;
   T_local_robot_ = T_local_robot;
   T_world_robot_ = T_world_robot;
   radius_ = near_;
-  for (const Eigen::Vector2d& p : points_)
+  for (const Eigen::Vector2d& p : around_.p_local)
     radius_ = std::max(radius_, (p - Eigen::Vector2d(T_local_robot.x, T_local_robot.y)).norm());
-  density_ = static_cast<double>(points_.size()) / (std::numbers::pi * radius_ * radius_);
+  density_ = static_cast<double>(around_.p_local.size()) / (std::numbers::pi * radius_ * radius_);
   for (Hypothesis& hypothesis : hypotheses_) rate(hypothesis);
   std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
 }
 
 void ConstellationSearch::look_around() {
-  if (points_.size() < fewest_fitting) return;
+  if (around_.p_local.size() < fewest_fitting) return;
   const std::int64_t until = work_ + most_poses;
-  for (std::size_t i = 0; i < points_.size() && work_ < until; ++i)
-    look_from(next_corner_++ % points_.size(), most_poses_of_corner);
+  for (std::size_t i = 0; i < around_.p_local.size() && work_ < until; ++i)
+    look_from(next_corner_++ % around_.p_local.size(),
+              {.triangles = most_of_corner, .poses = most_of_corner});
 }
 
-void ConstellationSearch::look_from(std::size_t corner, std::int64_t most_poses) {
-  until_ = work_ + most_poses;
+void ConstellationSearch::look_from(std::size_t corner, const Limits& limits) {
+  until_ = {.triangles = work_ + limits.triangles, .poses = poses_ + limits.poses};
   ++corners_done_;
-  std::vector<int> others(points_.size());
+  std::vector<int> others(around_.p_local.size());
   std::iota(others.begin(), others.end(), 0);
   std::erase(others, static_cast<int>(corner));
   const auto distance = [&](int i) {
-    return (points_[static_cast<std::size_t>(i)] - points_[corner]).squaredNorm();
+    return (around_.p_local[static_cast<std::size_t>(i)] - around_.p_local[corner]).squaredNorm();
   };
   std::ranges::stable_sort(others, {}, distance);
   if (others.size() > ConstellationIndex::neighbours) others.resize(ConstellationIndex::neighbours);
   for (std::size_t i = 0; i < others.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const std::array<int, 3> corners{static_cast<int>(corner), others[i], others[j]};
-      const auto at = [&](std::size_t c) { return points_[static_cast<std::size_t>(corners[c])]; };
+      const auto at = [&](std::size_t c) { return around_.p_local[static_cast<std::size_t>(corners[c])]; };
       Triangle triangle = triangle_of(corners, {at(0), at(1), at(2)}, index_.width());
       if (!triangle.is_sharp) continue;
       const double longest = triangle.sides(0);
@@ -74,16 +74,39 @@ void ConstellationSearch::look_from(std::size_t corner, std::int64_t most_poses)
 }
 
 void ConstellationSearch::try_triangle(const Triangle& triangle) {
-  const auto at = [&](std::size_t c) { return points_[static_cast<std::size_t>(triangle.corners[c])]; };
+  const auto at = [&](std::size_t c) {
+    return around_.p_local[static_cast<std::size_t>(triangle.corners[c])];
+  };
   index_.for_each_like(triangle.sides, [&](const std::array<LandmarkId, 3>& corners) {
-    if (work_ >= until_) return;
+    if (work_ >= until_.triangles || poses_ >= until_.poses) return;
     ++work_;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!grid_.has(corners[c]) || is_own(static_cast<std::size_t>(triangle.corners[c]), corners[c])) return;
-    }
+    if (!may_be(triangle, corners)) return;
     const Pose2 T = pose_from(at(0), at(1), grid_.position(corners[0]), grid_.position(corners[1]));
-    if ((T * at(2) - grid_.position(corners[2])).norm() <= near_) try_pose(T);
+    if ((T * at(2) - grid_.position(corners[2])).norm() > near_) return;
+    ++poses_;
+    if (!is_of_map() || fits_nearby(T)) try_pose(T);
   });
+}
+
+bool ConstellationSearch::may_be(const Triangle& triangle, const std::array<LandmarkId, 3>& corners) const {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!grid_.has(corners[c]) || is_own(static_cast<std::size_t>(triangle.corners[c]), corners[c]))
+      return false;
+  }
+  if (!is_of_map()) return true;
+  const Eigen::Vector2d& p = around_.p_local[static_cast<std::size_t>(triangle.corners[0])];
+  return (grid_.position(corners[0]) - p).norm() <= around_.farthest;
+}
+
+/// A robot that has come back is in the middle of what it knows.
+bool ConstellationSearch::fits_nearby(const Pose2& T_world_local) const {
+  constexpr std::size_t nearest = 8;  // [-] points
+  std::size_t fitting = 0;
+  for (std::size_t i = 0; i < std::min(nearest, around_.p_local.size()); ++i) {
+    find_near(i, T_world_local, 1);
+    if (!found_near_.empty()) ++fitting;
+  }
+  return fitting >= fewest_fitting;
 }
 
 void ConstellationSearch::try_pose(const Pose2& T_world_local) {
@@ -108,15 +131,15 @@ void ConstellationSearch::rate(Hypothesis& hypothesis) const {
 
 /// Landmarks that a point may be taken for.
 void ConstellationSearch::find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const {
-  grid_.find_near(T_world_local * points_[point], near_, own_.empty() ? most : most + 1, found_near_);
+  grid_.find_near(T_world_local * around_.p_local[point], near_, is_of_map() ? most + 1 : most, found_near_);
   std::erase_if(found_near_, [&](const LandmarkGrid::Near& near) { return is_own(point, near.landmark); });
 }
 
 /// How many points have a landmark; 0 as soon as fewer than `at_least` can have.
 std::size_t ConstellationSearch::count(const Pose2& T_world_local, std::size_t at_least) const {
   std::size_t fitting = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (fitting + points_.size() - i < at_least) return 0;
+  for (std::size_t i = 0; i < around_.p_local.size(); ++i) {
+    if (fitting + around_.p_local.size() - i < at_least) return 0;
     find_near(i, T_world_local, 1);
     if (!found_near_.empty()) ++fitting;
   }
@@ -151,7 +174,7 @@ void ConstellationSearch::pair(const Pose2& T_world_local, std::vector<Pairing>&
     Pairing pairing;
   };
   std::vector<Near> all;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (std::size_t i = 0; i < around_.p_local.size(); ++i) {
     find_near(i, T_world_local, 4);
     for (const LandmarkGrid::Near& near : found_near_) all.push_back({near.distance, {i, near.landmark}});
   }
@@ -171,7 +194,7 @@ Pose2 ConstellationSearch::climb(Pose2 T_world_local, std::vector<Pairing>& pair
   for (int round = 0; round < climbs; ++round) {
     std::vector<Eigen::Vector2d> from, to;
     for (const Pairing& p : pairs) {
-      from.push_back(points_[p.around]);
+      from.push_back(around_.p_local[p.around]);
       to.push_back(grid_.position(p.landmark));
     }
     const std::optional<Pose2> fitted = rigid_fit(from, to);
@@ -186,7 +209,8 @@ Pose2 ConstellationSearch::climb(Pose2 T_world_local, std::vector<Pairing>& pair
 }
 
 std::optional<ConstellationSearch::Found> ConstellationSearch::best() const {
-  if (hypotheses_.empty() || corners_done_ < std::min(points_.size(), corners_before)) return std::nullopt;
+  if (hypotheses_.empty() || corners_done_ < std::min(around_.p_local.size(), corners_before))
+    return std::nullopt;
   const Hypothesis& first = hypotheses_.front();
   if (!is_alone()) return std::nullopt;
   Found found{.T_world_local = first.T_world_local, .pairs = {}};
@@ -216,12 +240,13 @@ bool ConstellationSearch::is_ambiguous() const {
 /// Whether enough of what lies among the points that fit does so: of the points and of the landmarks, whichever is less.
 bool ConstellationSearch::is_complete(const Found& found) const {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // of the points that fit
-  for (const Pairing& pair : found.pairs) centre += points_[pair.around];
+  for (const Pairing& pair : found.pairs) centre += around_.p_local[pair.around];
   centre /= static_cast<double>(found.pairs.size());
   double radius = 0.0;
-  for (const Pairing& pair : found.pairs) radius = std::max(radius, (points_[pair.around] - centre).norm());
+  for (const Pairing& pair : found.pairs)
+    radius = std::max(radius, (around_.p_local[pair.around] - centre).norm());
   const auto points = static_cast<std::size_t>(std::ranges::count_if(
-      points_, [&](const Eigen::Vector2d& p) { return (p - centre).norm() <= radius; }));
+      around_.p_local, [&](const Eigen::Vector2d& p) { return (p - centre).norm() <= radius; }));
   grid_.find_near(found.T_world_local * centre, radius, most_counted, found_near_);
   const std::size_t fewer = std::min(points, std::max(found_near_.size(), found.pairs.size()));
   return static_cast<double>(found.pairs.size()) >= least_share * static_cast<double>(fewer);

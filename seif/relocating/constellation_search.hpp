@@ -26,16 +26,20 @@ class ConstellationSearch {
       : grid_(grid), index_(index), near_(near) {}
 
   struct Points {
-    std::vector<Eigen::Vector2d> p_local;  // [m]
-    std::vector<LandmarkId>
-        own;  // the landmarks of the map that they are, which they are not taken for; or empty
+    std::vector<Eigen::Vector2d> p_local = {};  // [m]
+    /// Of points that are in the map themselves, in whose frame they are then: what they are not to be taken for.
+    std::vector<LandmarkId> own = {};
+    double farthest = 0.0;  // [m] from there, for these; farther away nothing is looked for
   };
   /// The points of the local map that are around the robot now, the nearest first. `T_world_robot`: what the filter
   /// believes. The nearer to that, the fewer other places have to be excluded.
   void set_points(const Points& points, const Pose2& T_local_robot, const Pose2& T_world_robot);
 
-  /// Looks up the triangles of a point with the points near it. Ends after so many poses.
-  void look_from(std::size_t corner, std::int64_t most_poses);
+  /// Looks up the triangles of a point with the points near it. Ends after so many triangles of the map, or poses.
+  struct Limits {
+    std::int64_t triangles, poses;  // [-]
+  };
+  void look_from(std::size_t corner, const Limits& limits);
   /// Those of one point after the other, going on with each call, until enough poses have been looked at.
   void look_around();
 
@@ -54,7 +58,7 @@ class ConstellationSearch {
   /// Whether the surroundings look the same as other parts of the map: two poses fit to more than half of what fits best.
   bool is_ambiguous() const;
 
-  /// [-] Poses looked at so far.
+  /// [-] Triangles of the map looked at so far.
   std::int64_t work() const { return work_; }
 
  private:
@@ -76,26 +80,29 @@ class ConstellationSearch {
     return climb(T_world_local, pairs);
   }
   void rate(Hypothesis& hypothesis) const;
+  bool may_be(const Triangle& triangle, const std::array<LandmarkId, 3>& corners) const;
+  bool fits_nearby(const Pose2& T_world_local) const;
   void find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const;
   double density_at(const Pose2& T_world_local) const;
   double log_places(const Pose2& T_world_local, double density) const;
   bool is_complete(const Found& found) const;
   bool is_alone() const;
+  bool is_of_map() const { return !around_.own.empty(); }
   bool is_own(std::size_t point, LandmarkId landmark) const {
-    return !own_.empty() && own_[point] == landmark;
+    return is_of_map() && around_.own[point] == landmark;
   }
 
   const LandmarkGrid& grid_;
   const ConstellationIndex& index_;
   double near_;
-  std::vector<Eigen::Vector2d> points_;  // [m]
-  std::vector<LandmarkId> own_;          // by point; or empty
+  Points around_;
   Pose2 T_local_robot_, T_world_robot_;
   double radius_ = 0.0;                 // of the points around the robot [m]
   double density_ = 0.0;                // of them [1/m^2]
   std::vector<Hypothesis> hypotheses_;  // the best, different ones, the best first
   std::size_t next_corner_ = 0, corners_done_ = 0;
-  std::int64_t work_ = 0, until_ = 0;
+  std::int64_t work_ = 0, poses_ = 0;  // [-] triangles of the map, and poses that they gave
+  Limits until_ = {0, 0};
   mutable std::vector<LandmarkGrid::Near> found_near_;
 };
 

@@ -59,7 +59,7 @@ std::optional<Relocation> UnnamedSearch::measurement_update(const Scan& scan, co
   const Pose2 T_local_robot = local_.filter().pose();
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < surroundings.size(); ++i) points.push_back(T_local_robot * surroundings.at(i));
-  search_->set_points({.p_local = points, .own = {}}, T_local_robot, T_world_robot);
+  search_->set_points({.p_local = points}, T_local_robot, T_world_robot);
   search_->consider(T_world_robot * inverse(T_local_robot));
   search_->look_around();
   const std::optional<ConstellationSearch::Found> found = search_->best();

@@ -41,7 +41,7 @@ Points around(const Points& landmarks, const Pose2& T_world_robot, std::mt19937_
 std::optional<ConstellationSearch::Found> found_in(const Map& map, const Points& points) {
   ConstellationSearch search(map.grid, map.index, 5.0 * sighting_sd);
   for (int scan = 0; scan < 3; ++scan) {
-    search.set_points({.p_local = points, .own = {}}, {}, {});
+    search.set_points({.p_local = points}, {}, {});
     search.look_around();
   }
   return search.best();
@@ -142,7 +142,7 @@ TEST(ConstellationSearch, LooksAtABoundedNumberOfPosesHoweverLargeTheMap) {
         around(scattered(count, std::sqrt(count / 0.15), random), {15.0, 15.0, 0.0}, random);
     std::int64_t before = 0;
     for (int scan = 0; scan < 5; ++scan) {
-      search.set_points({.p_local = points, .own = {}}, {}, {});
+      search.set_points({.p_local = points}, {}, {});
       search.look_around();
       EXPECT_LE(search.work() - before, 30'000) << count;
       before = search.work();
