@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "seif/relocating/scattered.hpp"
+#include "seif/ring_drive.hpp"
 
 namespace seif {
 namespace {
@@ -93,7 +94,7 @@ Match match(const Points& landmarks, const Surroundings& seen) {
   return {log_chance(seen.size(), *found, placement), placement.T_world_robot};
 }
 
-constexpr int maps = 10'000;
+constexpr int maps = test::under_sanitizer ? 1'000 : 10'000;
 constexpr int landmarks_of_map = 60;
 constexpr double width = 20.0;  // [m]
 
