@@ -138,13 +138,26 @@ TEST_P(GalleryWorld, HasNoFilterOfOursThatSaysItDiverged) {
 
 TEST(Gallery, FaultsAreToldWhereTheRobotIsCarriedOffAndNotBefore) {
   const TemporaryFolder folder;
-  const RunResult result = test::run_live(gallery_world("faults", {}), folder / "run");
+  worlds::World world = gallery_world("faults", {});
+  for (worlds::EstimatorChoice& estimator : world.estimators) estimator.options["relocate"] = "never";
+  const RunResult result = test::run_live(world, folder / "run");
   EXPECT_EQ(result.summary.left_out.size(), 2U);
   for (const EstimatorScore& score : result.summary.score.estimators) {
     ASSERT_TRUE(score.diverged_t) << score.name;
     EXPECT_GT(*score.diverged_t, 100.0) << score.name;
     EXPECT_LT(*score.diverged_t, 105.0) << score.name;
     EXPECT_GE(score.diverged_nees_t, 100.0) << score.name;
+  }
+}
+
+TEST(Gallery, FaultsEndWithARobotThatHasFoundItsPlaceAgain) {
+  const TemporaryFolder folder;
+  const RunResult result = test::run_live(gallery_world("faults", {}), folder / "run");
+  for (const EstimatorScore& score : result.summary.score.estimators) {
+    EXPECT_FALSE(score.diverged_t) << score.name;
+    EXPECT_FALSE(score.diverged_nees_t) << score.name;
+    EXPECT_EQ(score.losses.found(), 1) << score.name;
+    EXPECT_EQ(score.losses.found_wrongly(), 0) << score.name;
   }
 }
 
