@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <ranges>
-#include <stdexcept>
 
 #include "seif/measurement_steps.hpp"
 
@@ -36,18 +35,12 @@ double largest_variance(const Eigen::Matrix2d& covariance) {
   return mean + std::hypot(half_difference, covariance(0, 1));
 }
 
-LocalBelief& belief_of(Estimator& filter) {
-  if (LocalBelief* belief = filter.local_belief()) return *belief;
-  throw std::invalid_argument(
-      "association needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
-}
-
 }  // namespace
 
 AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const EstimatorSetup& setup,
                                      const AssociationOptions& options, LocalMap::MakeFilter make_local)
     : FilterAround(std::move(filter)),
-      belief_(belief_of(*filter_)),
+      belief_(belief_for("association")),
       T_robot_sensor_(setup.T_robot_sensor),
       options_(options),
       matcher_(options.match_probability, options.new_probability),
@@ -65,7 +58,7 @@ AssociatingFilter::AssociatingFilter(std::unique_ptr<Estimator> filter, const Es
 
 void AssociatingFilter::motion_update(const Odometry& odometry) {
   const Eigen::Matrix3d& R = odometry.covariance;
-  wander_ += R(0, 0) + R(1, 1) + records_.reach() * records_.reach() * R(2, 2);
+  wander_ += R(0, 0) + R(1, 1) + records_.view().reach() * records_.view().reach() * R(2, 2);
   filter_->motion_update(odometry);
   if (finder_ && finder_->lost.is_on()) finder_->lost.motion_update(odometry);
 }
@@ -93,12 +86,10 @@ void AssociatingFilter::measurement_update(const Scan& scan, const StageDone& do
 
 /// The first scan that sees something says how large the cells of the grid are.
 void AssociatingFilter::widen_view(const Scan& scan) {
-  for (const Observation& observation : scan.observations) {
-    records_.widen_view(observation.range, observation.bearing);
-  }
+  records_.view().widen(scan.observations);
   constexpr double least_cell = 1e-3;  // [m]
   if (!grid_ && !scan.observations.empty()) {
-    grid_.emplace(std::max(least_cell, records_.reach() / cells_in_reach));
+    grid_.emplace(std::max(least_cell, records_.view().reach() / cells_in_reach));
     if (make_local_)
       finder_.emplace(belief_, *grid_, make_local_, T_robot_sensor_, options_.wrong_place_probability);
   }
@@ -385,13 +376,9 @@ void AssociatingFilter::suspect() {
 /// Whether they lie so near to each other, by the covariance of their distance. Numbers of the joint
 /// covariance.
 bool AssociatingFilter::may_be_one(int a, int b) const {
-  const int row_a = 3 + 2 * a;
-  const int row_b = 3 + 2 * b;
-  const Eigen::Matrix2d P = Sigma_.block<2, 2>(row_a, row_a) + Sigma_.block<2, 2>(row_b, row_b) -
-                            Sigma_.block<2, 2>(row_a, row_b) - Sigma_.block<2, 2>(row_b, row_a);
   const Eigen::Vector2d apart = belief_.mean_of(asked_[static_cast<std::size_t>(a)]) -
                                 belief_.mean_of(asked_[static_cast<std::size_t>(b)]);
-  return apart.dot(P.inverse() * apart) <= merge_gate_;
+  return squared_distance_apart(Sigma_, 3 + 2 * a, 3 + 2 * b, apart) <= merge_gate_;
 }
 
 void AssociatingFilter::suspect(LandmarkId seen, LandmarkId other) {

@@ -36,6 +36,13 @@ double chi_square_gate(int pairs, double probability) {
   return 0.5 * (low + high);
 }
 
+double squared_distance_apart(const Eigen::Ref<const Eigen::MatrixXd>& Sigma, Eigen::Index row_a,
+                              Eigen::Index row_b, const Eigen::Vector2d& v) {
+  const Eigen::Matrix2d P = Sigma.block<2, 2>(row_a, row_a) + Sigma.block<2, 2>(row_b, row_b) -
+                            Sigma.block<2, 2>(row_a, row_b) - Sigma.block<2, 2>(row_b, row_a);
+  return v.dot(P.inverse() * v);
+}
+
 ScanMatcher::ScanMatcher(double match_probability, double new_probability, int most_steps)
     : far_(chi_square_gate(1, new_probability)), most_steps_(most_steps) {
   for (std::size_t pairs = 0; pairs <= most_pairs; ++pairs)

@@ -19,6 +19,11 @@ namespace seif {
 /// The value that a chi-square variable of 2 `pairs` degrees of freedom exceeds with this probability. [-]
 double chi_square_gate(int pairs, double probability);
 
+/// v' P^-1 v of how far two landmarks lie apart, v [m]; P by the joint covariance `Sigma`, in which they begin at these
+/// rows.
+double squared_distance_apart(const Eigen::Ref<const Eigen::MatrixXd>& Sigma, Eigen::Index row_a,
+                              Eigen::Index row_b, const Eigen::Vector2d& v);
+
 /// The observation that a filter expects of a landmark.
 struct ExpectedObservation {
   Eigen::Vector2d v = Eigen::Vector2d::Zero();    // innovation [m, rad]

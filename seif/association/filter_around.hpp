@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -47,6 +49,13 @@ class FilterAround : public Estimator {
 
  protected:
   explicit FilterAround(std::unique_ptr<Estimator> filter) : filter_(std::move(filter)) {}
+
+  /// Throws std::invalid_argument, naming the option that needs it, if the filter has no local belief.
+  LocalBelief& belief_for(const std::string& option) {
+    if (LocalBelief* belief = filter_->local_belief()) return *belief;
+    throw std::invalid_argument(option +
+                                " needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
+  }
 
   std::unique_ptr<Estimator> filter_;
 };

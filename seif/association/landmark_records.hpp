@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 
+#include "seif/association/sensor_view.hpp"
 #include "seif/chunked_array.hpp"
 #include "seif/types.hpp"
 
@@ -43,20 +43,19 @@ class LandmarkRecords {
   /// Its share of the scans that should have seen it, by Laplace's rule of succession. [-]
   double reliability(LandmarkId id) const { return ((*this)[id].seen + 1.0) / ((*this)[id].expected + 2.0); }
 
-  void widen_view(double range, double bearing) {
-    reach_ = std::max(reach_, range);
-    widest_bearing_ = std::max(widest_bearing_, std::abs(bearing));
-  }
-  double reach() const { return reach_; }  // [m] of the sensor so far
+  SensorView& view() { return view_; }
+  const SensorView& view() const { return view_; }
 
   /// Whether it is seen from where it lies at p_sensor [m]: it is well within the range and the bearings at which it was.
   bool should_be_seen(LandmarkId id, const Eigen::Vector2d& p_sensor) const {
-    return is_within(p_sensor, sure_reach * (*this)[id].farthest, sure_bearing * widest_bearing_);
+    return SensorView::is_within(p_sensor, sure_reach * (*this)[id].farthest,
+                                 sure_bearing * view_.widest_bearing());
   }
   /// The same of what was seen just before: it may only have come to the edge of the view.
   bool is_in_view(const Eigen::Vector2d& p_sensor) const {
-    const bool is_all_round = widest_bearing_ > edge * std::numbers::pi;
-    return is_within(p_sensor, reach_, is_all_round ? std::numbers::pi : edge * widest_bearing_);
+    const double widest = view_.widest_bearing();
+    const bool is_all_round = widest > edge * std::numbers::pi;
+    return SensorView::is_within(p_sensor, view_.reach(), is_all_round ? std::numbers::pi : edge * widest);
   }
 
   std::size_t memory_bytes() const { return records_.memory_bytes(); }
@@ -64,12 +63,8 @@ class LandmarkRecords {
  private:
   static constexpr double sure_reach = 0.8, sure_bearing = 0.9, edge = 0.95;  // [-]
 
-  static bool is_within(const Eigen::Vector2d& p_sensor, double range, double bearing) {
-    return p_sensor.norm() <= range && std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= bearing;
-  }
-
-  ChunkedArray<Record> records_;               // by name
-  double reach_ = 0.0, widest_bearing_ = 0.0;  // that have been seen [m, rad]
+  ChunkedArray<Record> records_;  // by name
+  SensorView view_;
 };
 
 }  // namespace seif

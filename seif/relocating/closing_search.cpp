@@ -1,9 +1,9 @@
 #include "seif/relocating/closing_search.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
+#include "seif/association/association.hpp"
 #include "seif/estimator.hpp"
 #include "seif/relocating/constellation_match.hpp"
 #include "seif/relocating/contradiction.hpp"
@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t most_young = 24;   // [-] landmarks around the robot that are used
 constexpr std::size_t fewest_twins = 4;  // [-]
-constexpr ConstellationSearch::Limits limits{.triangles = 400,
-                                             .poses = 40};  // for a landmark that has settled
-constexpr double reaches =
-    4.0;  // [-] so far from where it believes itself, over what it sees, a robot may be
+/// For a landmark that has settled.
+constexpr ConstellationSearch::Limits limits{.triangles = 400, .poses = 40};
+/// [-] So far from where it believes itself a robot may be, over what it sees.
+constexpr double reaches = 4.0;
 
 }  // namespace
 
@@ -94,12 +94,9 @@ bool ClosingSearch::contradicts(const std::vector<Closing::Twins>& twins) const 
   belief_.covariance_with(ids, Sigma);
   std::size_t against = 0;
   for (std::size_t i = 0; i < twins.size(); ++i) {
-    const auto a = static_cast<Eigen::Index>(3 + 4 * i);
-    const auto b = a + 2;
-    const Eigen::Matrix2d P =
-        Sigma.block<2, 2>(a, a) + Sigma.block<2, 2>(b, b) - Sigma.block<2, 2>(a, b) - Sigma.block<2, 2>(b, a);
+    const auto row = static_cast<Eigen::Index>(3 + 4 * i);
     const Eigen::Vector2d apart = belief_.mean_of(twins[i].young) - belief_.mean_of(twins[i].old);
-    if (!(apart.dot(P.inverse() * apart) <= contradiction)) ++against;
+    if (!(squared_distance_apart(Sigma, row, row + 2, apart) <= contradiction)) ++against;
   }
   return 2 * against > twins.size();
 }

@@ -10,9 +10,8 @@
 namespace seif {
 namespace {
 
-constexpr std::int64_t most_poses =
-    2000;  // [-] that a call looks at, after which it begins no further corner
-constexpr std::int64_t most_of_corner = 30'000;  // [-]
+constexpr std::int64_t most_triangles = 2000;    // [-] of the map in a call, before it begins the last corner
+constexpr std::int64_t most_of_corner = 30'000;  // [-] triangles, and poses that they give
 constexpr std::size_t most_hypotheses = 8;       // [-] that are kept
 constexpr std::size_t fewest_fitting = 3;        // [-] points of a pose that is remembered
 constexpr std::size_t corners_before = 8;        // [-] that must have been looked from before a pose is told
@@ -34,13 +33,14 @@ void ConstellationSearch::set_points(const Points& points, const Pose2& T_local_
   for (const Eigen::Vector2d& p : around_.p_local)
     radius_ = std::max(radius_, (p - Eigen::Vector2d(T_local_robot.x, T_local_robot.y)).norm());
   density_ = static_cast<double>(around_.p_local.size()) / (std::numbers::pi * radius_ * radius_);
-  for (Hypothesis& hypothesis : hypotheses_) rate(hypothesis);
+  for (Hypothesis& hypothesis : hypotheses_)
+    hypothesis = rated(hypothesis.T_world_local, count(hypothesis.T_world_local, 0));
   std::ranges::stable_sort(hypotheses_, std::ranges::greater(), &Hypothesis::score);
 }
 
 void ConstellationSearch::look_around() {
   if (around_.p_local.size() < fewest_fitting) return;
-  const std::int64_t until = work_ + most_poses;
+  const std::int64_t until = work_ + most_triangles;
   for (std::size_t i = 0; i < around_.p_local.size() && work_ < until; ++i)
     look_from(next_corner_++ % around_.p_local.size(),
               {.triangles = most_of_corner, .poses = most_of_corner});
@@ -114,19 +114,19 @@ void ConstellationSearch::try_pose(const Pose2& T_world_local) {
   const bool is_full = hypotheses_.size() == most_hypotheses;
   const std::size_t worst = is_full ? hypotheses_.back().fitting : 0;
   const std::size_t needed = std::max(fewest_fitting, worst > most_behind ? worst - most_behind : 0);
-  if (count(T_world_local, needed) < needed) return;
-  Hypothesis hypothesis{.T_world_local = T_world_local};
-  rate(hypothesis);
+  const std::size_t fitting = count(T_world_local, needed);
+  if (fitting < needed) return;
+  const Hypothesis hypothesis = rated(T_world_local, fitting);
   if (!is_full || hypothesis.score > hypotheses_.back().score) remember(hypothesis);
 }
 
 /// Were the landmarks scattered at random, as densely as here, a point would have one within near_ with probability
 /// p = 1 - exp(-density pi near_^2). The fewer places are no farther away, the less is it chance.
-void ConstellationSearch::rate(Hypothesis& hypothesis) const {
-  hypothesis.fitting = count(hypothesis.T_world_local, 0);
+ConstellationSearch::Hypothesis ConstellationSearch::rated(const Pose2& T_world_local,
+                                                           std::size_t fitting) const {
   const double p = 1.0 - std::exp(-density_ * std::numbers::pi * near_ * near_);
-  hypothesis.score =
-      -static_cast<double>(hypothesis.fitting) * std::log(p) - log_places(hypothesis.T_world_local, density_);
+  const double score = -static_cast<double>(fitting) * std::log(p) - log_places(T_world_local, density_);
+  return {.T_world_local = T_world_local, .fitting = fitting, .score = score};
 }
 
 /// Landmarks that a point may be taken for.
@@ -211,8 +211,8 @@ Pose2 ConstellationSearch::climb(Pose2 T_world_local, std::vector<Pairing>& pair
 std::optional<ConstellationSearch::Found> ConstellationSearch::best() const {
   if (hypotheses_.empty() || corners_done_ < std::min(around_.p_local.size(), corners_before))
     return std::nullopt;
-  const Hypothesis& first = hypotheses_.front();
   if (!is_alone()) return std::nullopt;
+  const Hypothesis& first = hypotheses_.front();
   Found found{.T_world_local = first.T_world_local, .pairs = {}};
   found.T_world_local = climb(first.T_world_local, found.pairs);
   if (found.pairs.size() < fewest_fitting || !is_complete(found)) return std::nullopt;

@@ -18,7 +18,7 @@
 
 namespace seif {
 
-/// Poses of a local map in the map, from the one scan to the next. The local map has a frame of its own.
+/// Poses of a local map in the map, from one scan to the next. The local map has a frame of its own.
 class ConstellationSearch {
  public:
   /// `near`: how near to a landmark something must be to be taken for it, before covariances are known [m].
@@ -35,12 +35,13 @@ class ConstellationSearch {
   /// believes. The nearer to that, the fewer other places have to be excluded.
   void set_points(const Points& points, const Pose2& T_local_robot, const Pose2& T_world_robot);
 
-  /// Looks up the triangles of a point with the points near it. Ends after so many triangles of the map, or poses.
+  /// After so many triangles of the map, or poses that they give, a look ends.
   struct Limits {
     std::int64_t triangles, poses;  // [-]
   };
+  /// Looks up the triangles of a point with the points near it.
   void look_from(std::size_t corner, const Limits& limits);
-  /// Those of one point after the other, going on with each call, until enough poses have been looked at.
+  /// Those of one point after the other, going on with each call, until enough triangles have been looked at.
   void look_around();
 
   /// Takes into account that the local map may lie there.
@@ -50,8 +51,8 @@ class ConstellationSearch {
     Pose2 T_world_local;
     std::vector<Pairing> pairs;  // of the points
     double density = 0.0;        // of landmarks around there [1/m^2]
-    double log_places =
-        0.0;  // [nat] how many places of 1 m^2, times turns of 1 rad, are no farther from the belief
+    /// [nat] How many places of 1 m^2, times turns of 1 rad, are no farther from the belief.
+    double log_places = 0.0;
   };
   /// The best pose so far, if no other one is nearly as good, and enough has been looked at.
   std::optional<Found> best() const;
@@ -79,7 +80,7 @@ class ConstellationSearch {
     std::vector<Pairing> pairs;
     return climb(T_world_local, pairs);
   }
-  void rate(Hypothesis& hypothesis) const;
+  Hypothesis rated(const Pose2& T_world_local, std::size_t fitting) const;
   bool may_be(const Triangle& triangle, const std::array<LandmarkId, 3>& corners) const;
   bool fits_nearby(const Pose2& T_world_local) const;
   void find_near(std::size_t point, const Pose2& T_world_local, std::size_t most) const;

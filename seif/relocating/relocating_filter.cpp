@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <utility>
 
 #include "seif/relocating/contradiction.hpp"
@@ -25,22 +24,16 @@ constexpr int scans_until_trusted = 3;     // [-] in a row that fit again
 /// Two landmarks that agree lie within this of where they should, before their covariances are known.
 constexpr double rough_m = 0.5;  // [m]
 constexpr double rough = 0.1;    // [-] of their distance
-constexpr std::size_t fewest_vanished = 3;
-constexpr double sure_reach = 0.7;
-constexpr double sure_bearing = 0.8;
-
-LocalBelief& belief_of(Estimator& filter) {
-  if (LocalBelief* belief = filter.local_belief()) return *belief;
-  throw std::invalid_argument(
-      "relocate needs a filter with a local belief: ekf, or seif with mean_recovery: tree");
-}
+/// So many landmarks must have vanished that lie well within the view, as a share of it.
+constexpr std::size_t fewest_vanished = 3;                // [-]
+constexpr double clear_reach = 0.7, clear_bearing = 0.8;  // [-]
 
 }  // namespace
 
 RelocatingFilter::RelocatingFilter(std::unique_ptr<Estimator> filter, LocalMap::MakeFilter make_local,
                                    const EstimatorSetup& setup)
     : FilterAround(std::move(filter)),
-      belief_(belief_of(*filter_)),
+      belief_(belief_for("relocate")),
       T_robot_sensor_(setup.T_robot_sensor),
       local_(std::move(make_local), setup.T_robot_sensor) {}
 
@@ -50,16 +43,15 @@ void RelocatingFilter::motion_update(const Odometry& odometry) {
 }
 
 void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& done) {
-  const bool was_home = !has_doubt_;
-  if (was_home && !is_shut_out() && (is_near_expected(scan) || judge(scan) != Verdict::contradicts) &&
-      !has_vanished(scan)) {
-    remember(scan);
-    const std::int64_t gated_before = filter_->counts().gated;
-    filter_->measurement_update(scan, done);
-    note_gated(gated_before);
-    return;
+  if (!has_doubt_) {
+    const bool is_near = is_near_expected(scan);
+    if (!is_shut_out() && (is_near || judge(scan) != Verdict::contradicts) && !has_vanished(scan)) {
+      remember(scan);
+      take_in(scan, is_near, done);
+      return;
+    }
+    begin_search();
   }
-  if (was_home) begin_search();
   remember(scan);
   follow(scan);
   if (!has_doubt_) {
@@ -71,16 +63,30 @@ void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& don
   filter_->measurement_update(empty_, done);
 }
 
-/// By the filter's own gate: all that it has seen of known landmarks lately.
-void RelocatingFilter::note_gated(std::int64_t before) {
+/// Notes whether the filter's own gate shuts out all that it sees of known landmarks. What is near says that the pose is
+/// right, and needs no counts.
+void RelocatingFilter::take_in(const Scan& scan, bool is_near, const StageDone& done) {
+  if (is_near) {
+    const bool sees_known = std::ranges::any_of(
+        scan.observations, [&](const Observation& z) { return belief_.is_at_hand(z.landmark); });
+    if (sees_known) forget_shut_out();
+    filter_->measurement_update(scan, done);
+    return;
+  }
+  const std::int64_t before = filter_->counts().gated;
+  filter_->measurement_update(scan, done);
   const Counts counts = filter_->counts();
   if (counts.innovation_degrees > 0) {
-    shut_out_scans_ = 0;
-    shut_out_ = 0;
+    forget_shut_out();
   } else if (counts.gated > before) {
     ++shut_out_scans_;
     shut_out_ += counts.gated - before;
   }
+}
+
+void RelocatingFilter::forget_shut_out() {
+  shut_out_scans_ = 0;
+  shut_out_ = 0;
 }
 
 /// So near to what the filter expects that no covariance has to be known.
@@ -111,6 +117,7 @@ RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
   if (Sigma_.rows() < n) Sigma_.resize(2 * n, 2 * n);
   auto Sigma = Sigma_.topLeftCorner(n, n);
   belief_.covariance_with(ids_, Sigma);
+  const double most = is_shut_out() ? near_enough : contradiction;
   std::size_t against = 0;
   Eigen::Index row = 3;
   for (const Observation& z : scan.observations) {
@@ -122,8 +129,7 @@ RelocatingFilter::Verdict RelocatingFilter::judge(const Scan& scan) {
     P << Sigma.topLeftCorner<3, 3>(), Sigma.block<3, 2>(0, row), Sigma.block<2, 3>(row, 0),
         Sigma.block<2, 2>(row, row);
     const Eigen::Matrix2d S = J * P * J.transpose() + z.covariance;
-    if (!(expected.v.dot(S.inverse() * expected.v) <= (is_shut_out() ? near_enough : contradiction)))
-      ++against;
+    if (!(expected.v.dot(S.inverse() * expected.v) <= most)) ++against;
     row += 2;
   }
   return 2 * against > ids_.size() ? Verdict::contradicts : Verdict::fits;
@@ -140,21 +146,17 @@ bool RelocatingFilter::has_vanished(const Scan& scan) {
   const Pose2 T_sensor_world = inverse(filter_->pose() * T_robot_sensor_);
   const auto is_in_view = [&](LandmarkId id) {
     if (!belief_.is_at_hand(id)) return false;
-    const Eigen::Vector2d p = T_sensor_world * belief_.mean_of(id);
-    return p.norm() <= sure_reach * reach_ &&
-           std::abs(std::atan2(p.y(), p.x())) <= sure_bearing * widest_bearing_;
+    return SensorView::is_within(T_sensor_world * belief_.mean_of(id), clear_reach * view_.reach(),
+                                 clear_bearing * view_.widest_bearing());
   };
   return std::cmp_greater_equal(std::ranges::count_if(last_seen_, is_in_view), fewest_vanished);
 }
 
 void RelocatingFilter::remember(const Scan& scan) {
   if (scan.observations.empty()) return;
+  view_.widen(scan.observations);
   last_seen_.clear();
-  for (const Observation& z : scan.observations) {
-    reach_ = std::max(reach_, z.range);
-    widest_bearing_ = std::max(widest_bearing_, std::abs(z.bearing));
-    last_seen_.push_back(z.landmark);
-  }
+  for (const Observation& z : scan.observations) last_seen_.push_back(z.landmark);
 }
 
 void RelocatingFilter::begin_search() {
@@ -165,8 +167,7 @@ void RelocatingFilter::begin_search() {
 
 void RelocatingFilter::end_search() {
   has_doubt_ = false;
-  shut_out_scans_ = 0;
-  shut_out_ = 0;
+  forget_shut_out();
   local_.end();
 }
 

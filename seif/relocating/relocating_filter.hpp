@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "seif/association/filter_around.hpp"
+#include "seif/association/sensor_view.hpp"
 #include "seif/relocating/local_map.hpp"
 #include "seif/relocating/placement.hpp"
 
@@ -33,7 +34,8 @@ class RelocatingFilter final : public FilterAround {
 
   bool is_near_expected(const Scan& scan) const;
   bool is_shut_out() const;
-  void note_gated(std::int64_t before);
+  void take_in(const Scan& scan, bool is_near, const StageDone& done);
+  void forget_shut_out();
   Verdict judge(const Scan& scan);
   bool has_vanished(const Scan& scan);
   void begin_search();
@@ -57,7 +59,7 @@ class RelocatingFilter final : public FilterAround {
   std::int64_t held_back_ = 0;             // [-] observations
   int shut_out_scans_ = 0;                 // [-] by the filter's gate, in a row
   std::int64_t shut_out_ = 0;              // [-] observations of these
-  double reach_ = 0.0, widest_bearing_ = 0.0;
+  SensorView view_;
   std::vector<LandmarkId> last_seen_;  // by the last scan that saw something
   Scan empty_;
   std::vector<LandmarkId> ids_;
