@@ -28,7 +28,7 @@ namespace http = beast::http;
 using asio::ip::tcp;
 using nlohmann::json;
 
-constexpr std::chrono::seconds longest{60};
+constexpr std::chrono::seconds longest{240};
 
 /// Waits until `done` gives something that is not empty.
 template <class Done>
@@ -38,7 +38,7 @@ auto eventually(const Done& done, const std::string& what) {
     if (auto result = done()) return result;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  throw std::runtime_error("it did not happen in a minute: " + what);
+  throw std::runtime_error("it did not happen in four minutes: " + what);
 }
 
 tcp::endpoint local(unsigned port) {

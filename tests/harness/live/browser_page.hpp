@@ -27,7 +27,7 @@ class BrowserPage {
 
   /// The value of an expression of JavaScript; a promise is awaited. Throws std::runtime_error with what it threw.
   nlohmann::json evaluate(const std::string& expression);
-  /// Waits until an expression is true. Throws std::runtime_error after 60 s.
+  /// Waits until an expression is true. Throws std::runtime_error after 240 s.
   void wait_until(const std::string& expression);
   /// Presses and releases a key, such as "s" or " ".
   void press(const std::string& key);

@@ -70,7 +70,8 @@ TEST(LiveCommand, WhatIsDoneInABrowserCanBeRunAgain) {
   const TemporaryFolder folder;
   NEEDS_BROWSER(folder, browser);
   write_small_world(folder);
-  LiveProgram program(folder, "live small.yaml --speed 4 --no-browser");
+  // The run must not end before a slow browser has stopped it.
+  LiveProgram program(folder, "live small.yaml --set duration_s=86400 --speed 4 --no-browser");
   BrowserPage page(folder, browser, program.url());
   page.wait_until("seifbed.state.firstPicture && seifbed.state.frame.updates > 3");
   page.press(" ");
