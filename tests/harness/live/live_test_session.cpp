@@ -57,7 +57,7 @@ int LiveTestSession::ask(nlohmann::json request) {
 
 ReceivedMessage LiveTestSession::wait_for(const std::string& kind,
                                           const std::function<bool(const nlohmann::json&)>& wanted) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(240);
   PageMessage bytes;
   while (std::chrono::steady_clock::now() < end) {
     pages_.tick();

@@ -120,7 +120,7 @@ std::optional<ReceivedMessage> PageClient::receive() {
 
 ReceivedMessage PageClient::wait_for(const std::string& kind,
                                      const std::function<bool(const nlohmann::json&)>& wanted) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(240);
   while (std::chrono::steady_clock::now() < end) {
     std::optional<ReceivedMessage> message = receive();
     if (!message) throw std::runtime_error("the connection was closed before a message of kind " + kind);
