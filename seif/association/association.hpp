@@ -19,8 +19,8 @@ namespace seif {
 /// The value that a chi-square variable of 2 `pairs` degrees of freedom exceeds with this probability. [-]
 double chi_square_gate(int pairs, double probability);
 
-/// v' P^-1 v of how far two landmarks lie apart, v [m]; P by the joint covariance `Sigma`, in which they begin at these
-/// rows.
+/// v' P^-1 v, [-], for two landmarks that lie v [m] apart. P is the covariance of v, from the joint covariance `Sigma`;
+/// there the landmarks have the rows from `row_a` and from `row_b` on.
 double squared_distance_apart(const Eigen::Ref<const Eigen::MatrixXd>& Sigma, Eigen::Index row_a,
                               Eigen::Index row_b, const Eigen::Vector2d& v);
 

@@ -22,6 +22,7 @@ class SensorView {
   double reach() const { return reach_; }                    // [m]
   double widest_bearing() const { return widest_bearing_; }  // [rad]
 
+  /// Whether something at p_sensor [m] is no farther away than `range` [m], and no farther to the side than `bearing` [rad].
   static bool is_within(const Eigen::Vector2d& p_sensor, double range, double bearing) {
     return p_sensor.norm() <= range && std::abs(std::atan2(p_sensor.y(), p_sensor.x())) <= bearing;
   }

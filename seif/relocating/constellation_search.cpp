@@ -10,7 +10,7 @@
 namespace seif {
 namespace {
 
-constexpr std::int64_t most_triangles = 2000;    // [-] of the map in a call, before it begins the last corner
+constexpr std::int64_t most_triangles = 2000;  // [-] of the map, after which a call begins no further corner
 constexpr std::int64_t most_of_corner = 30'000;  // [-] triangles, and poses that they give
 constexpr std::size_t most_hypotheses = 8;       // [-] that are kept
 constexpr std::size_t fewest_fitting = 3;        // [-] points of a pose that is remembered

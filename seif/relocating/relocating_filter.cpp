@@ -63,8 +63,8 @@ void RelocatingFilter::measurement_update(const Scan& scan, const StageDone& don
   filter_->measurement_update(empty_, done);
 }
 
-/// Notes whether the filter's own gate shuts out all that it sees of known landmarks. What is near says that the pose is
-/// right, and needs no counts.
+/// Notes whether the filter's own gate shuts out all that it sees of known landmarks. A scan that is near shows that the
+/// pose is right. Then nobody needs the filter's counts, which take time.
 void RelocatingFilter::take_in(const Scan& scan, bool is_near, const StageDone& done) {
   if (is_near) {
     const bool sees_known = std::ranges::any_of(

@@ -23,7 +23,8 @@ void SettledConstellations::keep_up(int scan) {
   while (just_settled_.size() < most_settled && next_young_ < young_.size() &&
          scan - young_[next_young_].joined >= settled_after)
     add_next();
-  if (2 * next_young_ < young_.size()) return;  // so that it stays short while the robot explores
+  // Half of them at once: so the list stays short while the robot explores, and few move for each that goes.
+  if (2 * next_young_ < young_.size()) return;
   young_.erase(young_.begin(), young_.begin() + static_cast<std::ptrdiff_t>(next_young_));
   next_young_ = 0;
 }
