@@ -77,7 +77,10 @@ BeliefView::BeliefView(const LiveEstimator& estimator, Rgb colour, double start,
 }
 
 void BeliefView::scan(const ScanEvent& event) {
-  if (!estimator_.filter->needs_names()) return;
+  if (!estimator_.filter->needs_names()) {
+    scan_ = event;
+    return;
+  }
   for (const seif::Observation& z : event.scan.observations) {
     if (!means_.position(z.landmark)) new_.push_back(z.landmark);
   }
@@ -87,6 +90,7 @@ void BeliefView::update(const UpdateRecord& record) {
   for (const seif::LandmarkId landmark : estimator_.filter->associations()) {
     if (landmark != seif::no_landmark && !means_.position(landmark)) new_.push_back(landmark);
   }
+  true_names_.add(estimator_.filter->associations(), scan_);
   t_ = record.t;
   note_active();
   note_loss(record.counts);
@@ -263,7 +267,7 @@ void BeliefView::append_uncertainty(seif::LandmarkId id, const Vector2d& mean, c
   if (layers.ellipses && covariance != covariances_.end() && covariance->second.allFinite() &&
       2.0 * std::sqrt(covariance->second.trace()) > gaze.smallest_mark)
     marks.ellipses.push_back(two_sigma(mean, covariance->second, colour_, gaze.mark_scale));
-  const std::optional<Vector2d> truth = stage.true_position(id);
+  const std::optional<Vector2d> truth = stage.true_position(true_id_of(*estimator_.filter, true_names_, id));
   if (layers.errors && truth && (mean - *truth).norm() > gaze.smallest_mark)
     marks.strokes.push_back(
         {above_ground(mean), above_ground(*truth), 1.6F * gaze.mark_scale, paint(palette::purple, 0.9F)});

@@ -16,6 +16,7 @@
 #include "harness/film/stage.hpp"
 #include "harness/film/trail.hpp"
 #include "harness/run/live_loop.hpp"
+#include "harness/score/true_names.hpp"
 #include "harness/statistics/losses.hpp"
 #include "harness/stream/run_listener.hpp"
 #include "sim/render/scene.hpp"
@@ -108,6 +109,8 @@ class BeliefView {
   Series three_sigma_;
   MatrixPicture matrix_;
 
+  ScanEvent scan_;                     // the latest, for a filter that names landmarks by itself
+  TrueNames true_names_;               // of its names
   PointIndex means_{4.0};              // all landmarks, each with the mean that was read last
   std::vector<seif::LandmarkId> new_;  // seen since the last frame, perhaps in the map by now
   std::size_t turn_ = 0;               // number of the landmark out of view that is read next

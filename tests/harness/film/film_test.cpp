@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/film/film_folder.hpp"
@@ -91,6 +92,26 @@ class Linked final : public Dogmatist {
   }
 };
 
+/// Has names of its own: the first landmark is the last one of the world.
+class Renaming final : public Dogmatist {
+ public:
+  using Dogmatist::Dogmatist;
+  bool needs_names() const override { return false; }
+  std::span<const seif::LandmarkId> associations() const override { return names_; }
+  void measurement_update(const seif::Scan& scan, const seif::StageDone&) override {
+    names_.clear();
+    for (std::size_t i = scan.observations.size(); i-- > 0;) names_.push_back(static_cast<int>(i));
+  }
+  std::vector<seif::LandmarkEstimate> map() const override {
+    std::vector<seif::LandmarkEstimate> map = belief();
+    std::swap(map[0].mean, map[2].mean);
+    return map;
+  }
+
+ private:
+  std::vector<seif::LandmarkId> names_;
+};
+
 seif::Registry registry() {
   seif::Registry registry = test::test_registry();
   seif::EstimatorType type;
@@ -102,6 +123,11 @@ seif::Registry registry() {
   type.name = "linked";
   type.make = [](const seif::EstimatorSetup& setup, const seif::Options&) {
     return std::make_unique<Linked>(setup);
+  };
+  registry.add(type);
+  type.name = "renaming";
+  type.make = [](const seif::EstimatorSetup& setup, const seif::Options&) {
+    return std::make_unique<Renaming>(setup);
   };
   registry.add(std::move(type));
   return registry;
@@ -262,6 +288,20 @@ TEST_F(FilmTest, DrawsEllipsesOfTwoStandardDeviations) {
       EXPECT_LT(at(1.5), 60) << landmark.landmark << " inside at " << angle;
     }
   }
+}
+
+/// An error goes from a landmark of the map to the one of the world that was seen, whatever their names are: here all are
+/// zero.
+TEST_F(FilmTest, DrawsNoErrorBetweenLandmarksThatOnlyBearTheSameName) {
+  worlds::World world = bare_world(0.4);
+  world.landmark_sensor.ids = worlds::LandmarkIds::hidden;
+  world.film.layers.errors = true;
+  world.estimators = {of_type("renaming")};
+  const render::Image last = film_live(world, folder_ / "run").back();
+  const Rgb8 ground = ground_of(world, last);
+  const auto& map = Dogmatist::belief();
+  for (const double share : {0.2, 0.4, 0.6, 0.8})
+    EXPECT_LT(contrast(last, pixel_of(world, (1.0 - share) * map[0].mean + share * map[2].mean), ground), 8);
 }
 
 TEST_F(FilmTest, ShowsEachEstimatorInAViewOfItsOwn) {
