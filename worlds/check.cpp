@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "worlds/check_faults.hpp"
+#include "worlds/check_team.hpp"
 #include "worlds/geometry.hpp"
 #include "worlds/shape_tree.hpp"
 #include "worlds/suggestion.hpp"
@@ -35,18 +36,35 @@ std::vector<std::string> names_of_solids(const World& world) {
   return names;
 }
 
-/// The check of one world, and the list that gets its problems.
+/// The check of one robot's world, and the list that gets its problems.
 struct Check {
   const Node& document;
   const World& world;
   std::vector<Problem>& problems;
   ShapeTree solids;
   std::vector<std::string> solid_names;
+  std::string robot;  // path of a robot of a team; empty: the world's only one
 
-  bool sound(const std::vector<std::string_view>& sections) const { return is_sound(problems, sections); }
+  /// Where the document has this value of the robot.
+  std::string place_of(std::string_view path) const {
+    if (robot.empty()) return std::string(path);
+    if (path == "robot.start") return robot + ".start";
+    const std::string_view section = path.substr(0, path.find('.'));
+    const Node* estimators = find_path(document, robot + ".estimators");
+    const bool has_estimators = estimators != nullptr && !estimators->entries.empty();
+    const bool is_own =
+        section == "drive" || section == "sensors" || (section == "estimators" && has_estimators);
+    return is_own ? fmt::format("{}.{}", robot, path) : std::string(path);
+  }
+
+  bool sound(const std::vector<std::string_view>& sections) const {
+    return is_sound(problems, sections) && std::ranges::all_of(sections, [&](std::string_view section) {
+             return is_sound(problems, {place_of(section)});
+           });
+  }
 
   void refuse(std::string_view path, std::string message) const {
-    refuse_value(document, path, std::move(message), problems);
+    refuse_value(document, place_of(path), std::move(message), problems);
   }
 
   void refuse_landmark(std::size_t index, std::string message) const {
@@ -124,7 +142,7 @@ void check_speed(const Check& check) {
 }
 
 void check_start(const Check& check) {
-  if (!check.sound({"robot", "ground", "obstacles"})) return;
+  if (!check.sound({"robot", "robot.start", "ground", "obstacles"})) return;
   const Eigen::Vector2d& start = check.world.robot.start.position;
   const double radius = footprint_radius(check.world.robot);
   if (!on_ground(start, radius, check.world.ground_size)) {
@@ -238,15 +256,31 @@ void check_landmarks_on_path(const Check& check) {
   }
 }
 
+/// Those placed by hand, against each other and against what blocks motion.
 void check_landmarks(const Check& check) {
   if (check.world.landmarks.empty() || !check.sound({"landmarks.placed", "ground"})) return;
   const bool obstacles_known = check.sound({"obstacles"});
-  const bool start_known = check.sound({"robot"});
-  const bool path_known = check.sound({"drive", "robot"});
   check_landmarks_alone(check);
   if (obstacles_known) check_landmarks_in_obstacles(check);
-  if (start_known) check_landmarks_at_start(check);
+}
+
+/// The same, against a robot.
+void check_landmarks_in_way(const Check& check) {
+  if (check.world.landmarks.empty() || !check.sound({"landmarks.placed", "ground", "robot", "robot.start"}))
+    return;
+  const bool path_known = check.sound({"drive"});
+  check_landmarks_at_start(check);
   if (path_known) check_landmarks_on_path(check);
+}
+
+/// What a robot has of its own.
+void check_member(const Check& check) {
+  check_rates(check);
+  check_range_noise(check);
+  check_pose_source(check);
+  check_speed(check);
+  check_start(check);
+  check_path(check);
 }
 
 }  // namespace
@@ -270,25 +304,31 @@ void refuse_value(const Node& document, std::string_view path, std::string messa
 }
 
 void check_film(const Node& document, const World& world, std::vector<Problem>& problems) {
-  check_film(Check{document, world, problems, ShapeTree({}), {}});
+  check_film(Check{document, world, problems, ShapeTree({}), {}, {}});
 }
 
 void check_world(const Node& document, const World& world, std::vector<Problem>& problems) {
-  Check check{document, world, problems, ShapeTree({}), {}};
-  if (is_sound(problems, {"obstacles"})) {
-    check.solids = ShapeTree(solid_rectangles(world));
-    check.solid_names = names_of_solids(world);
-  }
-  check_rates(check);
-  check_range_noise(check);
-  check_pose_source(check);
-  check_speed(check);
-  check_start(check);
-  check_path(check);
-  check_landmarks(check);
-  check_engine(check);
+  if (is_sound(problems, {"robots"})) check_team(document, world, problems);
+  const bool obstacles_known = is_sound(problems, {"obstacles"});
+  const auto check_of = [&](const World& of, std::string robot) {
+    return Check{document,
+                 of,
+                 problems,
+                 ShapeTree(obstacles_known ? solid_rectangles(of) : std::vector<Rectangle>{}),
+                 obstacles_known ? names_of_solids(of) : std::vector<std::string>{},
+                 std::move(robot)};
+  };
+  const std::vector<World> alone = worlds_of_robots(world);
+  std::vector<Check> robots;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    robots.push_back(check_of(alone[i], world.robots.empty() ? "" : fmt::format("robots.{}", i)));
+  const Check whole = check_of(world, "");
+  std::ranges::for_each(robots, check_member);
+  check_landmarks(whole);
+  std::ranges::for_each(robots, check_landmarks_in_way);
+  check_engine(whole);
   check_faults(document, world, problems);
-  check_film(check);
+  check_film(whole);
 }
 
 }  // namespace worlds

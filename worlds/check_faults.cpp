@@ -25,6 +25,17 @@ std::string what_blocks(const Eigen::Vector2d& p, const World& world) {
   return in_landmark ? "inside of a landmark" : "";
 }
 
+/// Of the sensors to which the fault happens. [rad]
+double largest_bearing_sd(const Fault& fault, const World& world) {
+  if (world.robots.empty()) return world.landmark_sensor.bearing_sd;
+  double largest = 0.0;
+  for (const TeamRobot& robot : world.robots) {
+    if (fault.robot.empty() || fault.robot == robot.name)
+      largest = std::max(largest, robot.landmark_sensor.bearing_sd);
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::string why_it_cannot_appear(const Fault& fault, const World& world) {
@@ -54,7 +65,7 @@ void check_faults(const Node& document, const World& world, std::vector<Problem>
   if (!is_sound(problems, {"faults"})) return;
   const bool places_known =
       is_sound(problems, {"robot", "ground", "physics", "obstacles", "landmarks.placed"});
-  const bool noise_known = is_sound(problems, {"sensors"});
+  const bool noise_known = is_sound(problems, {"sensors", "robots"});
   for (std::size_t i = 0; i < world.faults.size(); ++i) {
     const Fault& fault = world.faults[i];
     const std::string path = fmt::format("faults.{}", i);
@@ -66,12 +77,12 @@ void check_faults(const Node& document, const World& world, std::vector<Problem>
       const std::string why = why_it_cannot_appear(fault, world);
       if (!why.empty()) refuse_value(document, path, why, problems);
     }
-    const double off = std::abs(fault.size) * world.landmark_sensor.bearing_sd;
-    if (fault.kind == FaultKind::outlier && noise_known && off >= 180 * degree)
-      refuse_value(document, path + ".size_sigma",
-                   fmt::format("so many standard deviations of {} deg are half a turn or more",
-                               world.landmark_sensor.bearing_sd / degree),
-                   problems);
+    const double bearing_sd = largest_bearing_sd(fault, world);
+    if (fault.kind == FaultKind::outlier && noise_known && std::abs(fault.size) * bearing_sd >= 180 * degree)
+      refuse_value(
+          document, path + ".size_sigma",
+          fmt::format("so many standard deviations of {} deg are half a turn or more", bearing_sd / degree),
+          problems);
   }
 }
 

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string_view>
 
+#include "worlds/describe_drive.hpp"
+#include "worlds/describe_estimators.hpp"
 #include "worlds/describe_fault.hpp"
 #include "worlds/describe_parts.hpp"
+#include "worlds/describe_sensors.hpp"
+#include "worlds/describe_team.hpp"
 #include "worlds/film_layers.hpp"
 #include "worlds/suggestion.hpp"
 
@@ -18,18 +21,11 @@ namespace {
 
 // Limits that stop a typing mistake from asking for more than a machine has.
 constexpr double largest_height = 1e3;             // [m]
-constexpr double smallest_length = 1e-6;           // [m] of what divides or is squared
-constexpr double largest_clearance = 1e3;          // [m]
 constexpr double highest_turn_rate = 1e4;          // [deg/s]
 constexpr double highest_acceleration = 1e4;       // [m/s^2]
 constexpr double highest_turn_acceleration = 1e6;  // [deg/s^2]
 constexpr double largest_torque = 1e5;             // [N m]
-constexpr double highest_speed = 10;               // [m/s]
 constexpr double highest_density = 1e6;            // [1/m^2]
-constexpr double smallest_angle_sd = 1e-5;         // [deg] logs allow 1e-7 rad
-constexpr double largest_angle_sd = 180;           // [deg]
-constexpr double largest_mount_offset = 10;        // [m]
-constexpr double most_false_detections = 100;      // [-] in a scan, on average; all of them may be linked
 constexpr double shortest_interval = 1e-6;         // [s]
 constexpr double largest_sample = 1e6;             // [-]
 constexpr double slowest_film = 1e-3;              // [-] a slower one would not end
@@ -41,26 +37,16 @@ constexpr double smallest_landmark_radius = 1e-3;  // [m] of a landmark
 constexpr double largest_landmark_radius = 100;    // [m] of a landmark
 constexpr double most_landmarks = 1e7;             // [-] of one generator
 constexpr double most_clusters = 1e5;              // [-]
-constexpr double highest_step_rate = 1e4;          // [Hz]
 constexpr double most_tries = 1e6;                 // [-]
 constexpr double smallest_film = 64;               // [px]
 constexpr double largest_film = 7680;              // [px]
 constexpr double highest_film_rate = 240;          // [1/s]
 constexpr std::size_t most_filmed = 2;             // [-] estimators side by side
 
-constexpr std::array<std::string_view, 6> mode_names = {"hold",       "waypoints", "loop",
-                                                        "serpentine", "explore",   "commands"};
 constexpr std::array<std::string_view, 2> engine_names = {"bullet", "kinematic"};
-constexpr std::array<std::string_view, 2> landmark_ids_names = {"known", "hidden"};
 constexpr std::array<std::string_view, 6> pattern_names = {"uniform", "poisson_disk", "grid",
                                                            "ring",    "clusters",     "corridor"};
 constexpr std::array<std::string_view, 5> camera_names = {"overview", "chase", "orbit", "top", "fixed"};
-
-void check_corners(Fields& fields, const Eigen::Vector2d& min, const Eigen::Vector2d& max) {
-  if (fields.sound() && (min.array() >= max.array()).any()) {
-    fields.problem("max_m", "'max_m' must be more than 'min_m' in x and in y");
-  }
-}
 
 }  // namespace
 
@@ -110,9 +96,9 @@ void check_robot(Fields& fields, const Robot& robot) {
   }
 }
 
-void check_length(Fields& fields, std::string_view key, std::size_t count) {
-  if (count > longest_list)
-    fields.problem(key, fmt::format("'{}' must have at most {} items, not {}", key, longest_list, count));
+void check_length(Fields& fields, std::string_view key, std::size_t count, std::size_t most = longest_list) {
+  if (count > most)
+    fields.problem(key, fmt::format("'{}' must have at most {} items, not {}", key, most, count));
 }
 
 void describe_robot(Fields& fields, Robot& robot) {
@@ -256,191 +242,6 @@ void describe_box(Fields& fields, Box& box) {
   fields.number("height_m", box.height, more_than_up_to(0, largest_height), "height");
 }
 
-void describe_pursuit(Fields& fields, Drive& drive) {
-  fields.number("speed_m_s", drive.speed, more_than_up_to(0, highest_speed), "cruising speed");
-  fields.number("lookahead_m", drive.lookahead, between(0.001, largest_clearance),
-                "lookahead distance of the pure pursuit");
-}
-
-void describe_waypoints(Fields& fields, Drive& drive, bool closed) {
-  const std::size_t min_count = closed ? 3 : 1;
-  describe_pursuit(fields, drive);
-  fields.points("waypoints_m", drive.path, coordinate(), min_count, "corners of the path", Need::required);
-  const std::size_t expected = drive.path.size() - (closed ? 0 : 1);
-  if (fields.sound() && drive.path.size() > 1 && legs(drive.path, closed).size() != expected) {
-    fields.problem("waypoints_m", closed ? "two waypoints in a row are equal (a loop returns by itself)"
-                                         : "two waypoints in a row are equal");
-  }
-}
-
-void describe_serpentine(Fields& fields, Drive& drive, SerpentineArea& area) {
-  constexpr double most_lanes = 1e4;
-  describe_pursuit(fields, drive);
-  fields.vector2("min_m", area.min, coordinate(), "lower left corner of the area", Need::required);
-  fields.vector2("max_m", area.max, coordinate(), "upper right corner of the area", Need::required);
-  fields.number("lane_m", area.lane, more_than_up_to(0, largest_ground), "at most, from lane to lane");
-  fields.boolean("closed", drive.closed, "whether the robot drives back to the first lane and begins again");
-  check_corners(fields, area.min, area.max);
-  if (fields.sound() && area.max.y() - area.min.y() > most_lanes * area.lane) {
-    fields.problem("lane_m", fmt::format("these are more than {} lanes", most_lanes));
-  }
-}
-
-std::vector<Fields::Case> drive_cases(Drive& drive, SerpentineArea& area) {
-  return {
-      {"hold", "stand still", [](Fields&) {}},
-      {"waypoints", "follow a path to its end",
-       [&](Fields& fields) { describe_waypoints(fields, drive, false); }},
-      {"loop", "follow a closed path round and round",
-       [&](Fields& fields) { describe_waypoints(fields, drive, true); }},
-      {"serpentine", "cover a rectangle in lanes",
-       [&](Fields& fields) { describe_serpentine(fields, drive, area); }},
-      {"explore", "drive at random, clear of everything",
-       [&](Fields& fields) {
-         describe_pursuit(fields, drive);
-         fields.number("clearance_m", drive.clearance, more_than_up_to(0, largest_clearance),
-                       "least distance from the robot's centre to anything solid");
-       }},
-      {"commands", "recorded velocities",
-       [&](Fields& fields) {
-         fields.text("file", drive.commands_file,
-                     "CSV with the head t,v,omega [s, m/s, rad/s]; a path relative to the world file",
-                     Need::required);
-       }},
-  };
-}
-
-void describe_drive(Fields& fields, Drive& drive, SerpentineArea& area) {
-  std::string mode = name_of(mode_names, drive.mode);
-  fields.variant("mode", mode, drive_cases(drive, area), "what the robot does");
-  drive.mode = enum_of<DriveMode>(mode_names, mode);
-  drive.closed = drive.closed || drive.mode == DriveMode::loop;
-  fields.text("pose_from", drive.pose_from,
-              "whose pose steers: truth, odometry, or the name of an estimator");
-  fields.text("takeover_file", drive.takeover_file,
-              "CSV file t,v,omega: from time t on, this command moves the robot and not the drive; a row "
-              "without v and "
-              "omega gives the wheel back to the drive",
-              Need::optional);
-}
-
-void describe_encoders(Fields& fields, Encoders& encoders) {
-  fields.integer("rate_hz", encoders.rate, between(1, highest_step_rate),
-                 "odometry; divides physics.step_rate_hz");
-  fields.integer("ticks_per_revolution", encoders.ticks_per_revolution, between(0, 1e9),
-                 "resolution; 0: no quantisation");
-  fields.number("distance_sd_m_per_sqrt_m", encoders.distance_sd, between(0, 10),
-                "random error of one wheel after 1 m rolled");
-  fields.number("diameter_ratio", encoders.diameter_ratio, between(0.5, 2),
-                "right over left wheel diameter, actual over assumed");
-  fields.number("track_ratio", encoders.track_ratio, between(0.5, 2), "actual over assumed track");
-  fields.number("diameter_ratio_sd", encoders.diameter_ratio_sd, between(0, 0.1),
-                "standard deviation of the part of the diameter ratio that is drawn from the seed");
-  fields.number("track_ratio_sd", encoders.track_ratio_sd, between(0, 0.1),
-                "standard deviation of the part of the track ratio that is drawn from the seed");
-  fields.boolean("calibrated", encoders.calibrated, "no systematic error, whatever the ratios say");
-}
-
-void describe_landmark_sensor(Fields& fields, LandmarkSensor& sensor) {
-  fields.integer("rate_hz", sensor.rate, between(1, highest_step_rate),
-                 "scans; divides physics.step_rate_hz");
-  fields.section(
-      "mount", "where the sensor sits on the robot, from the middle of the axle",
-      [&](Fields& inner) { describe_placement(inner, sensor.mount, Need::defaulted, largest_mount_offset); });
-  fields.number("max_range_m", sensor.max_range, more_than_up_to(0, largest_ground),
-                "largest distance to a landmark's centre at which it is seen");
-  fields.angle("fov_deg", sensor.fov, more_than_up_to(0, 360), "full angle, centred on the sensor's x");
-  fields.number("range_sd_m", sensor.range_sd, between(smallest_length, largest_range_sd),
-                "standard deviation of a range");
-  fields.number("range_sd_per_m", sensor.range_sd_per_m, between(0, 10),
-                "what each metre of range adds to the standard deviation, in quadrature");
-  fields.angle("bearing_sd_deg", sensor.bearing_sd, between(smallest_angle_sd, largest_angle_sd),
-               "standard deviation of a bearing");
-  fields.number("miss_probability", sensor.miss_probability, between(0, 1),
-                "that a visible landmark is not reported");
-  fields.number("false_detections_per_scan", sensor.false_detections, between(0, most_false_detections),
-                "mean number (Poisson)");
-  describe_choice(fields, "ids", sensor.ids, landmark_ids_names,
-                  "whether an observation tells which landmark it is of; with hidden, ekf and seif find out "
-                  "by themselves, "
-                  "and estimators that cannot are left out");
-  fields.number("misread_probability", sensor.misread_probability, between(0, 1),
-                "that an observation bears another landmark's id");
-}
-
-/// The types of the library that the estimator names. A library that cannot be loaded is a problem, and has none.
-EstimatorTypes types_of_library(Fields& fields, const EstimatorChoice& choice,
-                                const EstimatorSchemas& schemas) {
-  try {
-    if (schemas.of_library) return schemas.of_library(choice.library);
-    fields.problem("library", "a library cannot be named here");
-  } catch (const std::exception& error) {
-    fields.problem("library", error.what());
-  }
-  fields.accept_unknown_keys();  // they may be options of its estimators
-  return {};
-}
-
-/// The type that an estimator has if it names none: that of its own name, or the only one of its library. Empty:
-/// it must name one.
-std::string default_type(const EstimatorChoice& choice, const EstimatorTypes& types) {
-  if (types.contains(choice.name)) return choice.name;
-  return !choice.library.empty() && types.size() == 1 ? types.begin()->first : "";
-}
-
-void describe_estimator(Fields& fields, EstimatorChoice& choice, const EstimatorSchemas& schemas) {
-  fields.text("library", choice.library,
-              "shared library that has the type (a plug-in); its path is relative to this file",
-              Need::optional);
-  const EstimatorTypes known =
-      choice.library.empty() ? schemas.types : types_of_library(fields, choice, schemas);
-  std::vector<Fields::Case> cases;
-  std::vector<std::string> types;
-  for (const auto& [type, describe] : known) {
-    types.push_back(type);
-    cases.push_back({type, "", [&](Fields& inner) {
-                       std::map<std::string, OptionValue> options;
-                       describe(inner, options);
-                       if (choice.type == type) choice.options = std::move(options);
-                     }});
-  }
-  choice.type = default_type(choice, known);
-  const bool needs_type = choice.type.empty() && !known.empty();
-  fields.variant("type", choice.type, cases, "kind of estimator; by default its name",
-                 needs_type ? Need::required : Need::defaulted);
-  fields.number("odometry_sd_factor", choice.odometry_sd_factor,
-                between(1 / largest_sd_factor, largest_sd_factor),
-                "odometry noise that the filter assumes, over that of the sensor");
-  fields.number("observation_sd_factor", choice.observation_sd_factor,
-                between(1 / largest_sd_factor, largest_sd_factor),
-                "observation noise that the filter assumes, over that of the sensor");
-  const std::string hint = suggestion(choice.name, types);
-  if (needs_type && choice.type.empty() && !hint.empty()) {
-    fields.problem("", fmt::format("'{}' is no type of estimator{}", choice.name, hint));
-  }
-}
-
-void describe_estimators(Fields& fields, World& world, const EstimatorSchemas& schemas) {
-  NameRule rule{{"truth", "odometry"}, {}};
-  for (const auto& [type, describe] : schemas.types) rule.known.push_back(type);
-  fields.named("estimators", rule, "the estimators that run, by names of your own",
-               [&](Fields& inner, const std::string& name) {
-                 EstimatorChoice choice;
-                 choice.name = name;
-                 describe_estimator(inner, choice, schemas);
-                 world.estimators.push_back(std::move(choice));
-               });
-}
-
-void describe_start_estimate(Fields& fields, StartEstimate& start) {
-  constexpr double largest_start_sd = 1e4;  // [m]
-  const Range length = between(smallest_length, largest_start_sd);
-  fields.number("x_sd_m", start.x_sd, length, "standard deviation of x");
-  fields.number("y_sd_m", start.y_sd, length, "standard deviation of y");
-  fields.angle("heading_sd_deg", start.heading_sd, between(smallest_angle_sd, largest_angle_sd),
-               "standard deviation of the heading");
-}
-
 void describe_scoring(Fields& fields, Scoring& scoring) {
   fields.number("interval_s", scoring.interval, between(shortest_interval, longest_duration),
                 "time between two scorings of consistency");
@@ -512,17 +313,15 @@ void describe_world(Fields& fields, WorldFile& file, const EstimatorSchemas& est
   });
   fields.section("drive", "what the robot is told to do",
                  [&](Fields& inner) { describe_drive(inner, world.drive, file.area); });
-  fields.section("sensors", "what the robot measures with", [&](Fields& inner) {
-    inner.section("encoders", "wheel encoders",
-                  [&](Fields& item) { describe_encoders(item, world.encoders); });
-    inner.section("landmark_sensor", "range and bearing of landmarks",
-                  [&](Fields& item) { describe_landmark_sensor(item, world.landmark_sensor); });
-  });
+  fields.section("sensors", "what the robot measures with",
+                 [&](Fields& inner) { describe_sensors(inner, world.encoders, world.landmark_sensor); });
   fields.list("faults", world.faults, describe_fault, "faults injected on purpose, each at its time");
   check_length(fields, "faults", world.faults.size());
   fields.section("start_estimate", "standard deviations of the start that the estimators are given",
                  [&](Fields& inner) { describe_start_estimate(inner, world.start_estimate); });
-  describe_estimators(fields, world, estimators);
+  describe_estimators(fields, world.estimators, estimators, "the estimators that run, by names of your own");
+  describe_team(fields, file, estimators);
+  check_length(fields, "robots", file.robots.size(), most_robots_of_team);
   fields.section("scoring", "how the run is scored",
                  [&](Fields& inner) { describe_scoring(inner, world.scoring); });
   fields.section("film", "how the run is filmed", [&](Fields& inner) { describe_film(inner, world.film); });

@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "worlds/describe_drive.hpp"
 #include "worlds/generators.hpp"
 #include "worlds/load.hpp"
 #include "worlds/world.hpp"
 
 namespace worlds {
 
-/// A rectangle to be covered in lanes.
-struct SerpentineArea {
-  Eigen::Vector2d min = Eigen::Vector2d::Constant(-5);  // [m]
-  Eigen::Vector2d max = Eigen::Vector2d::Constant(5);   // [m]
-  double lane = 2.0;                                    // [m] between lanes, at most
+/// A robot of a team, before its path is laid out and its command files are read.
+struct TeamRobotFile {
+  TeamRobot robot;
+  SerpentineArea area;
 };
 
 /// The content of a world file, before paths are laid out, command files read and landmarks generated.
@@ -22,6 +22,7 @@ struct WorldFile {
   World world;
   std::vector<Generator> generators;
   SerpentineArea area;
+  std::vector<TeamRobotFile> robots;  // World::robots gets them once their drives are complete
   std::string version;  // of the program that resolved the file; empty for a file that is not resolved
 };
 

@@ -73,6 +73,8 @@ void describe_fault(Fields& fields, Fault& fault) {
   fields.number("at_s", fault.at, between(0, longest_duration),
                 "when: it comes with the first measurement, or the first step of the physics, from then on",
                 Need::required);
+  fields.text("robot", fault.robot, "in a team: the robot to which it happens; by default to every one",
+              Need::optional);
 }
 
 }  // namespace worlds

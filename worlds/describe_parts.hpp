@@ -1,6 +1,7 @@
 // What the descriptions of several sections share.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,8 +15,12 @@
 
 namespace worlds {
 
-inline constexpr double longest_duration = 1e6;  // [s]
-inline constexpr double largest_ground = 1e5;    // [m]
+inline constexpr double longest_duration = 1e6;   // [s]
+inline constexpr double largest_ground = 1e5;     // [m]
+inline constexpr double largest_clearance = 1e3;  // [m]
+inline constexpr double highest_speed = 10;       // [m/s]
+inline constexpr double highest_step_rate = 1e4;  // [Hz]
+inline constexpr double smallest_length = 1e-6;   // [m] of what divides or is squared
 
 /// The enumerator whose name is `name`; names[i] is the name of enumerator i. An unknown name gives the first
 /// enumerator: the reader has reported it as a problem.
@@ -42,6 +47,9 @@ void describe_choice(Fields& fields, std::string_view key, Enum& value,
 
 /// The range of a coordinate.
 inline Range coordinate() { return between(-largest_ground, largest_ground); }
+
+/// Adds a problem unless the rectangle has an inside.
+void check_corners(Fields& fields, const Eigen::Vector2d& min, const Eigen::Vector2d& max);
 
 void describe_landmark(Fields& fields, Landmark& landmark);
 void describe_patch(Fields& fields, FrictionPatch& patch);

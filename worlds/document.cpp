@@ -296,6 +296,10 @@ const Node* find_path(const Node& root, std::string_view path) {
   return node;
 }
 
+Node* find_path(Node& root, std::string_view path) {
+  return const_cast<Node*>(find_path(static_cast<const Node&>(root), path));
+}
+
 std::optional<Node> parse_document(std::string_view text, const std::string& source,
                                    std::vector<Problem>& problems) {
   const auto name = std::make_shared<const std::string>(source);

@@ -55,6 +55,7 @@ struct Node::Entry {
 
 /// The value at a path of keys and list indices, joined with dots; null if there is no such value.
 const Node* find_path(const Node& root, std::string_view path);
+Node* find_path(Node& root, std::string_view path);
 
 /// How deep maps and lists may be nested. [-]
 inline constexpr int max_depth = 64;

@@ -32,6 +32,8 @@ inline constexpr double open_end = 1e6;
 /// The time of a fault, and the values that its kind uses.
 struct Fault {
   FaultKind kind = FaultKind::bad_observation;
+  /// In a team: the robot to which it happens; empty: it happens to every robot.
+  std::string robot = {};
   double at = 0.0;                 // [s] it occurs at the first measurement or physics step from this time on
   BadValue value = BadValue::nan;  // bad_observation: its range
   double size = 0.0;               // [sigma] outlier: error of the bearing, counter-clockwise

@@ -27,11 +27,16 @@ std::vector<Rectangle> FreeSpace::keep_outs(const World& world, const Clearances
     clearances_.push_back(clearance + radius_);
   };
   for (const Rectangle& solid : solid_rectangles(world)) keep_out(solid, clear.walls);
-  for (const Segment& leg : legs(driven_path(world), false)) keep_out(rectangle(leg, 0.0), clear.path);
   const auto keep_out_of_robot = [&](const Eigen::Vector2d& p) {
     keep_out(rectangle(Segment{p, p}, 0.0), footprint_radius(world.robot));
   };
-  keep_out_of_robot(world.robot.start.position);
+  const auto keep_out_of_way = [&](const Placement& start, const Drive& drive) {
+    for (const Segment& leg : legs(driven_path(start, drive, world.duration), false))
+      keep_out(rectangle(leg, 0.0), clear.path);
+    keep_out_of_robot(start.position);
+  };
+  if (world.robots.empty()) keep_out_of_way(world.robot.start, world.drive);
+  for (const TeamRobot& robot : world.robots) keep_out_of_way(robot.start, robot.drive);
   for (const Fault& fault : world.faults) {
     if (fault.kind == FaultKind::kidnapping) keep_out_of_robot(fault.to.position);
   }

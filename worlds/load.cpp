@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <system_error>
@@ -37,11 +39,9 @@ std::string full_path(const std::filesystem::path& file, const Node& node) {
   return error ? relative.string() : full.string();
 }
 
-/// Lays out the path of the drive, or reads its commands. The document gets the absolute path of the commands'
-/// file, since the document may move to another folder.
-/// Writes the full path of a file into the document, and returns it.
+/// Writes the full path of a file into the document, which may move to another folder, and returns it.
 std::string resolve_file(const std::filesystem::path& world, const std::string& key, Node& document) {
-  Node* node = document.find("drive")->find(key.substr(key.find('.') + 1));
+  Node* node = find_path(document, key);
   std::string path = full_path(world, *node);
   *node = text_node(path, node->where);
   return path;
@@ -60,22 +60,35 @@ auto read_named_file(const std::string& key, const std::string& path, const Read
   return rows;
 }
 
-void prepare_drive(const std::filesystem::path& file, WorldFile& world_file, Node& document,
-                   std::vector<Problem>& problems) {
-  Drive& drive = world_file.world.drive;
-  if (!is_sound(problems, {"drive"})) return;
-  if (drive.mode == DriveMode::serpentine) {
-    const auto& [min, max, lane] = world_file.area;
-    drive.path = serpentine(min, max, lane);
-  }
+/// Of the drive at `key`: lays out its path, or reads its files.
+void prepare_drive(const std::filesystem::path& file, const std::string& key, Drive& drive,
+                   const SerpentineArea& area, Node& document, std::vector<Problem>& problems) {
+  if (!is_sound(problems, {key})) return;
+  if (drive.mode == DriveMode::serpentine) drive.path = serpentine(area.min, area.max, area.lane);
   if (drive.mode == DriveMode::commands) {
-    drive.commands_file = resolve_file(file, "drive.file", document);
-    drive.commands = read_named_file("drive.file", drive.commands_file, read_commands, document, problems);
+    const std::string file_key = key + ".file";
+    drive.commands_file = resolve_file(file, file_key, document);
+    drive.commands = read_named_file(file_key, drive.commands_file, read_commands, document, problems);
   }
   if (!drive.takeover_file.empty()) {
-    drive.takeover_file = resolve_file(file, "drive.takeover_file", document);
-    drive.takeover =
-        read_named_file("drive.takeover_file", drive.takeover_file, read_takeover, document, problems);
+    const std::string file_key = key + ".takeover_file";
+    drive.takeover_file = resolve_file(file, file_key, document);
+    drive.takeover = read_named_file(file_key, drive.takeover_file, read_takeover, document, problems);
+  }
+}
+
+/// The drives of the world and of all its robots.
+void prepare_drives(const std::filesystem::path& file, WorldFile& world_file, Node& document,
+                    std::vector<Problem>& problems) {
+  World& world = world_file.world;
+  prepare_drive(file, "drive", world.drive, world_file.area, document, problems);
+  const std::size_t robots =
+      std::min(world_file.robots.size(), most_robots_of_team);  // more are a problem already
+  for (std::size_t i = 0; i < robots; ++i) {
+    TeamRobotFile& member = world_file.robots[i];
+    prepare_drive(file, fmt::format("robots.{}.drive", i), member.robot.drive, member.area, document,
+                  problems);
+    world.robots.push_back(std::move(member.robot));
   }
 }
 
@@ -146,13 +159,18 @@ void set_version(Node& document, std::string_view version) {
 }  // namespace
 
 void find_libraries(const std::filesystem::path& file, Node& document) {
-  Node* estimators = document.find("estimators");
-  if (estimators == nullptr) return;
-  for (Node::Entry& entry : estimators->entries) {
-    Node* library = entry.value.find("library");
-    if (library != nullptr && library->kind == Node::Kind::scalar && !library->text.empty())
-      *library = text_node(full_path(file, *library), library->where);
-  }
+  const auto find_in = [&](Node* estimators) {
+    if (estimators == nullptr) return;
+    for (Node::Entry& entry : estimators->entries) {
+      Node* library = entry.value.find("library");
+      if (library != nullptr && library->kind == Node::Kind::scalar && !library->text.empty())
+        *library = text_node(full_path(file, *library), library->where);
+    }
+  };
+  find_in(document.find("estimators"));
+  Node* robots = document.find("robots");
+  if (robots == nullptr) return;
+  for (Node& robot : robots->items) find_in(robot.find("estimators"));
 }
 
 LoadResult load_world(const std::filesystem::path& name, const std::vector<std::string>& overrides,
@@ -168,11 +186,12 @@ LoadResult load_world(const std::filesystem::path& name, const std::vector<std::
     find_libraries(file, *document);
     read_fields(
         *document, [&](Fields& fields) { describe_world(fields, world_file, estimators); }, problems);
-    prepare_drive(file, world_file, *document, problems);
+    prepare_drives(file, world_file, *document, problems);
     check_world(*document, world_file.world, problems);
-    if (check && is_sound(problems, {"name", "seed", "robot", "sensors", "start_estimate", "estimators"}))
+    if (check &&
+        is_sound(problems, {"name", "seed", "robot", "robots", "sensors", "start_estimate", "estimators"}))
       check(*document, world_file.world, problems);
-    if (is_sound(problems, {"ground", "robot", "obstacles", "landmarks", "drive", "seed"})) {
+    if (is_sound(problems, {"ground", "robot", "robots", "obstacles", "landmarks", "drive", "seed"})) {
       generate_landmarks(*document, world_file, problems);
     }
     if (problems.empty()) {

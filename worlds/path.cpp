@@ -45,11 +45,12 @@ std::vector<Eigen::Vector2d> serpentine(const Eigen::Vector2d& min, const Eigen:
 }
 
 std::vector<Eigen::Vector2d> driven_path(const World& world) {
-  const Drive& drive = world.drive;
-  if (drive.mode == DriveMode::commands) {
-    return commanded_path(world.robot.start, drive.commands, world.duration);
-  }
-  std::vector<Eigen::Vector2d> path = {world.robot.start.position};
+  return driven_path(world.robot.start, world.drive, world.duration);
+}
+
+std::vector<Eigen::Vector2d> driven_path(const Placement& start, const Drive& drive, double duration) {
+  if (drive.mode == DriveMode::commands) return commanded_path(start, drive.commands, duration);
+  std::vector<Eigen::Vector2d> path = {start.position};
   path.insert(path.end(), drive.path.begin(), drive.path.end());
   if (drive.closed && !drive.path.empty()) path.push_back(drive.path.front());
   return path;

@@ -15,6 +15,8 @@ std::vector<Eigen::Vector2d> serpentine(const Eigen::Vector2d& min, const Eigen:
 
 /// The path that the robot is meant to drive: from its start to the path of its drive and along it, or the path
 /// of an ideal robot under its commands. For other drives only the start.
+std::vector<Eigen::Vector2d> driven_path(const Placement& start, const Drive& drive, double duration);
+/// That of the world's only robot.
 std::vector<Eigen::Vector2d> driven_path(const World& world);
 
 }  // namespace worlds

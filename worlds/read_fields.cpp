@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "worlds/fields.hpp"
+#include "worlds/names.hpp"
 #include "worlds/suggestion.hpp"
 
 namespace worlds {
@@ -66,10 +67,6 @@ std::string shown(const std::string& text) {
   return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-std::string name_alphabet() {
-  return fmt::format("at most {} letters, digits, '_' and '-', not beginning with '-'", longest_name);
-}
-
 /// Whether a text holds a control character that is no line end and no tab. Such a text could not be read back
 /// from the files of a run.
 bool has_control_character(std::string_view text) {
@@ -102,14 +99,6 @@ std::string join(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= longest_name && text.front() != '-' &&
-         std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-                  c == '-';
-         });
 }
 
 Node make_scalar(std::string text, bool quoted, const Location& where) {

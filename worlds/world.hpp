@@ -4,34 +4,19 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "worlds/drive.hpp"
+#include "worlds/estimator_choice.hpp"
 #include "worlds/fault.hpp"
 #include "worlds/film.hpp"
 #include "worlds/robot.hpp"
 #include "worlds/sensors.hpp"
 #include "worlds/solids.hpp"
+#include "worlds/team.hpp"
 
 namespace worlds {
-
-using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
-
-/// A factor for the noise that an estimator assumes is at most this, and at least its inverse. [-]
-inline constexpr double largest_sd_factor = 1e6;
-
-/// An estimator to run, under its own name. Only the estimator knows the meaning of its options.
-struct EstimatorChoice {
-  std::string name;
-  std::string type;                    // the kind; by default the name
-  std::string library;                 // path of the plug-in that has the type; empty: the program knows it
-  double odometry_sd_factor = 1.0;     // [-] odometry noise that it assumes / noise that the sensor reports
-  double observation_sd_factor = 1.0;  // [-] the same for observations
-  std::map<std::string, OptionValue> options;  // a value for every option of the type
-};
 
 struct Scoring {
   double interval = 10.0;     // [s] between two scorings of consistency
@@ -58,6 +43,9 @@ struct World {
   std::vector<EstimatorChoice> estimators;  // in the order of the file
   Scoring scoring;
   Film film;
+  /// Empty: there is one robot, `robot`. Otherwise these are all robots, and what each has of its own replaces the
+  /// value of the same name above.
+  std::vector<TeamRobot> robots;
 };
 
 }  // namespace worlds

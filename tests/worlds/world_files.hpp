@@ -67,7 +67,7 @@ inline std::filesystem::path gallery_file(const std::string& name) {
 
 inline const std::vector<std::string>& gallery() {
   static const std::vector<std::string> names = {"courtyard", "report2002", "loop",    "orchard", "forest",
-                                                 "walls",     "slippery",   "umbmark", "faults"};
+                                                 "walls",     "slippery",   "umbmark", "faults",  "team"};
   return names;
 }
 
