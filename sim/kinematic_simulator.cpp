@@ -21,7 +21,7 @@ double grid_cell(const worlds::World& world) {
 
 }  // namespace
 
-KinematicSimulator::KinematicSimulator(const worlds::World& world)
+KinematicSimulator::KinematicSimulator(const worlds::World& world, const worlds::Placement& start)
     : robot_(world.robot),
       step_rate_(world.physics.step_rate),
       landmarks_(grid_cell(world)),
@@ -35,8 +35,8 @@ KinematicSimulator::KinematicSimulator(const worlds::World& world)
     landmarks_.add(landmark.position);
     radii_.push_back(landmark.radius);
   }
-  state_.position = robot_.start.position;
-  state_.heading = robot_.start.heading;
+  state_.position = start.position;
+  state_.heading = start.heading;
 }
 
 void KinematicSimulator::step(const Command& command) {

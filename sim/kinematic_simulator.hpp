@@ -13,7 +13,7 @@ namespace sim {
 class KinematicSimulator final : public Simulator {
  public:
   /// See make_simulator. The step rate is positive.
-  explicit KinematicSimulator(const worlds::World& world);
+  KinematicSimulator(const worlds::World& world, const worlds::Placement& start);
 
   /// The wheels roll without slip, at the speeds that the limits of speed and acceleration allow. So the robot
   /// moves on an exact circular arc.

@@ -1,6 +1,7 @@
 #include "sim/near_solids.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -8,7 +9,7 @@ namespace sim {
 
 namespace {
 
-// Streaming costs one query and a few insertions. Once per metre this is negligible beside the 240 or more
+// Streaming costs one query for each robot, and a few insertions. Once per metre this is negligible beside the 240 or more
 // steps that the robot needs for a metre, and the square stays small enough for a step to be cheap in a dense
 // forest.
 constexpr double travel_between_streams = 1.0;  // [m]
@@ -31,18 +32,31 @@ NearSolids::~NearSolids() {
   }
 }
 
-void NearSolids::follow(const Eigen::Vector2d& p_world_robot) {
-  if (!p_world_streamed_ || (p_world_robot - *p_world_streamed_).norm() >= travel_between_streams) {
-    stream(p_world_robot);
-    p_world_streamed_ = p_world_robot;
+void NearSolids::follow(std::span<const Eigen::Vector2d> p_world_robots) {
+  if (is_streamed(p_world_robots)) return;
+  stream(p_world_robots);
+  p_world_streamed_.assign(p_world_robots.begin(), p_world_robots.end());
+}
+
+bool NearSolids::is_streamed(std::span<const Eigen::Vector2d> p_world_robots) const {
+  if (p_world_streamed_.size() != p_world_robots.size()) return false;
+  for (std::size_t i = 0; i < p_world_robots.size(); ++i) {
+    if ((p_world_robots[i] - p_world_streamed_[i]).norm() >= travel_between_streams) return false;
   }
+  return true;
 }
 
 /// Takes out solids that are far and inserts new ones. A solid that stays is not touched, so that the solver
 /// keeps its data about lasting contacts.
-void NearSolids::stream(const Eigen::Vector2d& p_world_robot) {
+void NearSolids::stream(std::span<const Eigen::Vector2d> p_world_robots) {
   const Eigen::Vector2d reach(reach_, reach_);
-  sensing_.solids_in_box(p_world_robot - reach, p_world_robot + reach, wanted_);
+  wanted_.clear();
+  for (const Eigen::Vector2d& p : p_world_robots) {
+    sensing_.solids_in_box(p - reach, p + reach, of_one_);
+    wanted_.insert(wanted_.end(), of_one_.begin(), of_one_.end());
+  }
+  std::ranges::sort(wanted_);
+  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
   for (auto entry = present_.begin(); entry != present_.end();) {
     if (std::binary_search(wanted_.begin(), wanted_.end(), entry->first)) {
       ++entry;

@@ -1,11 +1,11 @@
-// Keeps the solids near the robot, and only these, in the stepped world.
+// Keeps the solids near the robots, and only these, in the stepped world.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
 
 #include <Eigen/Core>
 #include <map>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/sensing_world.hpp"
@@ -16,7 +16,7 @@ namespace sim {
 
 class NearSolids {
  public:
-  /// `footprint_radius` [m] is the largest distance of a point of the robot from its position. Keeps references
+  /// `footprint_radius` [m] is the largest distance of a point of a robot from its position. Keeps references
   /// to the first three arguments.
   NearSolids(const Solids& solids, const SensingWorld& sensing, SteppedWorld& stepped,
              double footprint_radius);
@@ -24,28 +24,30 @@ class NearSolids {
   NearSolids(const NearSolids&) = delete;
   NearSolids& operator=(const NearSolids&) = delete;
 
-  /// To be called before each step. Afterwards everything that the robot at p_world_robot can touch is in the
+  /// To be called before each step. Afterwards everything that the robots at these places can touch is in the
   /// stepped world.
-  void follow(const Eigen::Vector2d& p_world_robot);
+  void follow(std::span<const Eigen::Vector2d> p_world_robots);
 
   /// Something was put into the world: the next call of follow() looks for it.
-  void look_again() { p_world_streamed_.reset(); }
+  void look_again() { p_world_streamed_.clear(); }
 
  private:
   using Present = std::map<int, btCollisionObject>;  // sorted by solid: the same order in every run
 
-  void stream(const Eigen::Vector2d& p_world_robot);
+  bool is_streamed(std::span<const Eigen::Vector2d> p_world_robots) const;
+  void stream(std::span<const Eigen::Vector2d> p_world_robots);
   void insert(int solid);
   btCollisionObject& new_object(int solid);
 
   const Solids& solids_;
   const SensingWorld& sensing_;
   SteppedWorld& stepped_;
-  double reach_;                                     // [m] half the side of the square that is streamed in
-  std::optional<Eigen::Vector2d> p_world_streamed_;  // where the robot was at the last streaming
+  double reach_;                                   // [m] half the side of the square around each robot
+  std::vector<Eigen::Vector2d> p_world_streamed_;  // where the robots were at the last streaming
   Present present_;
   std::vector<Present::node_type> spare_;  // map nodes of objects that were taken out
-  std::vector<int> wanted_;
+  std::vector<int> wanted_;                // by all robots
+  std::vector<int> of_one_;                // by one of them
 };
 
 }  // namespace sim

@@ -1,4 +1,4 @@
-// The physical truth: a differential-drive robot and its surroundings. The rest of the program sees only this
+// The physical truth: a differential-drive robot and its surroundings, other robots among them. The rest of the program sees only this
 // interface; the world file says which engine implements it.
 #pragma once
 
@@ -45,7 +45,7 @@ class Simulator {
   Simulator& operator=(const Simulator&) = delete;
 
   /// Advances the world by one physics step, 1 / step_rate. Throws std::invalid_argument if the command is not
-  /// finite.
+  /// finite. Several robots of one world share its step: it is made when each of them has been told its command.
   virtual void step(const Command& command) = 0;
 
   /// Puts the robot at another place while it moves: its speeds in its own frame stay, and so do its wheels'
@@ -89,5 +89,9 @@ class Simulator {
 /// std::invalid_argument for values that the engine cannot use: a step rate, mass, length or limit that is not
 /// positive, a wall of fewer than two points, and in the kinematic engine any obstacle or patch.
 std::unique_ptr<Simulator> make_simulator(const worlds::World& world);
+
+/// The same for a world of several robots: one simulator for each, in the order of the world. In Bullet they share
+/// the world, so they collide, and hide landmarks from each other. In the kinematic engine they do not meet.
+std::vector<std::unique_ptr<Simulator>> make_team(const worlds::World& world);
 
 }  // namespace sim

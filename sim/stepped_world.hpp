@@ -1,9 +1,11 @@
-// The world that Bullet steps: the ground, the robot, and the solids near it.
+// The world that Bullet steps: the ground, the robots, and the solids near them.
 #pragma once
 
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <btBulletDynamicsCommon.h>
+
+#include <cstddef>
 
 namespace sim {
 
@@ -18,14 +20,14 @@ struct CollisionGroup {
 
   static constexpr int ground_meets = chassis | wheel;
   static constexpr int solid_meets = chassis;
-  static constexpr int chassis_meets = ground | solid;
+  static constexpr int chassis_meets = ground | solid | chassis;
   static constexpr int wheel_meets = ground;
 };
 
 class SteppedWorld {
  public:
-  /// `robot_mass` [kg]: of everything that will move in this world.
-  explicit SteppedWorld(double robot_mass);
+  /// `robot_mass` [kg]: of each of the `robots` that will move in this world.
+  SteppedWorld(double robot_mass, std::size_t robots);
   ~SteppedWorld();
   SteppedWorld(const SteppedWorld&) = delete;
   SteppedWorld& operator=(const SteppedWorld&) = delete;
