@@ -85,6 +85,7 @@ std::optional<std::vector<PlannedRun>> plan_seeds(CompareArguments& arguments, c
     print_problems(loaded.problems);
     return std::nullopt;
   }
+  refuse_team(*loaded.world, "seifbed compare");
   comparison.name = loaded.world->name;
   comparison.baseline = choose_baseline(arguments.baseline, loaded.world->estimators);
   std::vector<PlannedRun> planned;

@@ -77,7 +77,10 @@ std::optional<LiveSource> world_source(const LiveArguments& arguments, const sei
   if (!arguments.seed.empty()) add_override(overrides, "--seed", "seed", arguments.seed);
   const worlds::LoadResult loaded =
       load_runnable_world(arguments.log.path, overrides, registry, program_version());
-  if (loaded.world) return LiveSource{*loaded.world, loaded.resolved, true, {}, registry};
+  if (loaded.world) {
+    refuse_team(*loaded.world, "seifbed live");
+    return LiveSource{*loaded.world, loaded.resolved, true, {}, registry};
+  }
   print_problems(loaded.problems);
   return std::nullopt;
 }

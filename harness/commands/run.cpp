@@ -14,8 +14,13 @@
 #include "harness/run/prepared_run.hpp"
 #include "harness/run/resume.hpp"
 #include "harness/run/runnable_world.hpp"
+#include "harness/team/team.hpp"
+#include "harness/team/team_resume.hpp"
+#include "harness/team/team_run.hpp"
+#include "harness/team/team_summary.hpp"
 #include "harness/terminal/checks.hpp"
 #include "harness/terminal/interrupt.hpp"
+#include "harness/terminal/messages.hpp"
 #include "harness/terminal/version.hpp"
 
 namespace harness {
@@ -34,6 +39,25 @@ struct RunArguments {
   OutputArguments output;
 };
 
+int print_result(const TeamResult& result, const std::filesystem::path& folder,
+                 const OutputArguments& output) {
+  for (const auto& [name, robot] : result.robots) {
+    if (!robot.error.empty()) tell_error(fmt::format("{}: {}", name, robot.error));
+  }
+  return print_output(output, to_json(result), scoreboard(result), folder, exit_code(result));
+}
+
+int run_team(const RunArguments& arguments, const worlds::World& world, const std::string& resolved,
+             const seif::Registry& registry) {
+  if (arguments.film || arguments.live) refuse_team(world, arguments.film ? "--film" : "--live");
+  Team team = prepare_team(world, registry);
+  const std::filesystem::path folder =
+      make_folder(arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
+  open_team_folder(team, folder, world, resolved);
+  return print_result(execute(team, folder, arguments.output.quiet || arguments.output.json), folder,
+                      arguments.output);
+}
+
 int run_world(const RunArguments& arguments, const seif::Registry& registry) {
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.seed.empty()) add_override(overrides, "--seed", "seed", arguments.seed);
@@ -46,6 +70,7 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
     return 2;
   }
   const worlds::World& world = *loaded.world;
+  if (!world.robots.empty()) return run_team(arguments, world, loaded.resolved, registry);
   PreparedRun run = prepare_run(world, registry);
   open_folder(run, arguments.output, fmt::format("{}-{}", file_name_of(world.name), world.seed));
   write_world(run.plan.folder, world, loaded.resolved);
@@ -68,9 +93,13 @@ int run_world(const RunArguments& arguments, const seif::Registry& registry) {
 
 int resume_run(const RunArguments& arguments, const seif::Registry& registry) {
   const std::filesystem::path folder = arguments.world;
-  if (is_incomplete(folder))
-    return print_result(resume(folder, registry, arguments.output.quiet || arguments.output.json), folder,
-                        arguments.output);
+  const bool quiet = arguments.output.quiet || arguments.output.json;
+  if (is_team(folder)) {
+    if (const std::optional<TeamResult> result = resume_team(folder, registry, quiet))
+      return print_result(*result, folder, arguments.output);
+  } else if (is_incomplete(folder)) {
+    return print_result(resume(folder, registry, quiet), folder, arguments.output);
+  }
   return arguments.output.quiet ? 0 : print_all(fmt::format("{} is complete\n", folder.string()), 0);
 }
 
@@ -86,6 +115,7 @@ void add_run(CommandLine line) {
       "  seifbed run worlds/courtyard.yaml --set drive.pose_from=odometry --set estimators.ekf={}\n"
       "  seifbed run worlds/courtyard.yaml --film --set film.camera=chase --set film.layers.rays=false\n"
       "  seifbed run worlds/forest.yaml --live\n"
+      "  seifbed run worlds/team.yaml\n"
       "  seifbed run --resume runs/courtyard-1\n"
       "  seifbed run worlds/courtyard.yaml --json | jq .estimators.ekf.nees_pose");
   auto arguments = std::make_shared<RunArguments>();

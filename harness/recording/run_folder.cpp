@@ -63,6 +63,20 @@ std::filesystem::path create_run_folder(const std::filesystem::path& parent, con
                              parent.string(), here.string(), error.message()));
 }
 
+void refuse_team_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "world.yaml", error) ||
+      std::filesystem::exists(folder / "log.yaml", error))
+    return;
+  std::vector<std::string> robots;
+  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (std::filesystem::exists(entry.path() / "log.yaml", error)) robots.push_back(entry.path().string());
+  }
+  if (robots.empty()) return;
+  throw BadInput(fmt::format("{}: is the folder of {} robots; name the folder of one of them, such as {}",
+                             folder.string(), robots.size(), *std::ranges::min_element(robots)));
+}
+
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -18,6 +18,9 @@ std::string file_name_of(std::string_view name);
 /// time get two folders. Throws BadInput.
 std::filesystem::path create_run_folder(const std::filesystem::path& parent, const std::string& name);
 
+/// Throws BadInput if this is the folder of several robots, of which each has a run folder in it.
+void refuse_team_folder(const std::filesystem::path& folder);
+
 /// Creates exactly this folder, or uses it if it exists and is empty. Otherwise throws BadInput.
 std::filesystem::path create_empty_folder(const std::filesystem::path& folder);
 

@@ -14,6 +14,7 @@
 #include "harness/files/file_lock.hpp"
 #include "harness/files/input_file.hpp"
 #include "harness/files/output_file.hpp"
+#include "harness/recording/run_folder.hpp"
 #include "harness/terminal/messages.hpp"
 
 namespace harness {
@@ -98,6 +99,7 @@ void copy_whole_part(const fs::path& run, const fs::path& to) {
 }
 
 fs::path whole_log(const fs::path& run, const fs::path& spare) {
+  refuse_team_folder(run);
   if (!is_unfinished(run)) return run;
   copy_whole_part(run, spare);
   const std::string name = run.string();

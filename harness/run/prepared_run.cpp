@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
 #include "harness/run/replay_settings.hpp"
@@ -22,6 +24,29 @@ namespace {
 /// The file names of commands in the run folder; its world.yaml refers to them.
 constexpr const char* commands_file = "commands.csv";
 constexpr const char* takeover_file = "takeover.csv";
+
+/// A file that a world names.
+struct NamedFile {
+  std::string key;             // where the world names it
+  std::filesystem::path from;  // where it is
+  std::string name;            // in the run folder
+};
+
+void add_files(std::vector<NamedFile>& files, const worlds::Drive& drive, const std::string& key,
+               const std::string& prefix) {
+  if (drive.mode == worlds::DriveMode::commands)
+    files.push_back({key + ".file", drive.commands_file, prefix + commands_file});
+  if (!drive.takeover_file.empty())
+    files.push_back({key + ".takeover_file", drive.takeover_file, prefix + takeover_file});
+}
+
+std::vector<NamedFile> files_of(const worlds::World& world) {
+  std::vector<NamedFile> files;
+  add_files(files, world.drive, "drive", "");
+  for (std::size_t i = 0; i < world.robots.size(); ++i)
+    add_files(files, world.robots[i].drive, fmt::format("robots.{}.drive", i), world.robots[i].name + "_");
+  return files;
+}
 
 template <class SomeStream>
 void set_stream(PreparedRun& run, std::unique_ptr<SomeStream> stream) {
@@ -41,10 +66,24 @@ void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Re
 }  // namespace
 
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry) {
+  refuse_team(world, "this");
+  return prepare_run(world, registry, sim::make_simulator(world));
+}
+
+void refuse_team(const worlds::World& world, const std::string& command) {
+  if (world.robots.empty()) return;
+  throw BadInput(
+      fmt::format("{}: the world has {} robots, and {} is for worlds of one; seifbed run runs it, and "
+                  "the folder of each robot is a run of its own",
+                  world.name, world.robots.size(), command));
+}
+
+PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry,
+                        std::unique_ptr<sim::Simulator> simulator) {
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
-  set_stream(run,
-             std::make_unique<SimulatedStream>(world, steering_pose(world.drive.pose_from, *run.believers)));
+  set_stream(run, std::make_unique<SimulatedStream>(
+                      world, steering_pose(world.drive.pose_from, *run.believers), std::move(simulator)));
   AbleEstimators able = some_able_estimators(registry, world, *run.log);
   check_steering(world, able);
   set_estimators(run, world, registry, std::move(able));
@@ -59,6 +98,7 @@ PreparedRun prepare_replay(const std::filesystem::path& log, const worlds::World
 }
 
 PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry) {
+  refuse_team_folder(log.path);
   PreparedRun run;
   run.believers = std::make_unique<Believers>();
   set_stream(run, open_log(log));
@@ -89,17 +129,13 @@ RunResult execute_in_passing(PreparedRun& run, RunListener* follower) {
 }
 
 void write_world(const std::filesystem::path& folder, const worlds::World& world, std::string resolved) {
-  std::vector<std::pair<const char*, std::string>> files;
-  if (world.drive.mode == worlds::DriveMode::commands) files.emplace_back("drive.file", commands_file);
-  if (!world.drive.takeover_file.empty()) files.emplace_back("drive.takeover_file", takeover_file);
+  const std::vector<NamedFile> files = files_of(world);
   if (!files.empty()) {
     std::vector<worlds::Problem> problems;
     std::optional<worlds::Node> document = worlds::parse_document(resolved, "world.yaml", problems);
-    for (const auto& [key, name] : files) {
-      const bool is_commands = name == commands_file;
-      std::filesystem::copy_file(is_commands ? world.drive.commands_file : world.drive.takeover_file,
-                                 folder / name);
-      worlds::apply_override(*document, fmt::format("{}={}", key, name), problems);
+    for (const NamedFile& file : files) {
+      std::filesystem::copy_file(file.from, folder / file.name);
+      worlds::apply_override(*document, fmt::format("{}={}", file.key, file.name), problems);
     }
     resolved = worlds::emit(*document);
   }

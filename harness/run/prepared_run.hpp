@@ -8,6 +8,7 @@
 #include "harness/readers/open_log.hpp"
 #include "harness/run/run.hpp"
 #include "seif/registry.hpp"
+#include "sim/simulator.hpp"
 #include "worlds/world.hpp"
 
 namespace harness {
@@ -24,6 +25,12 @@ struct PreparedRun {
 /// name no landmark, estimators that cannot do without are left out (without_names.hpp); throws BadInput if none
 /// is left.
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry);
+/// The same in an existing simulator of this world. The stream is a SimulatedStream.
+PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry,
+                        std::unique_ptr<sim::Simulator> simulator);
+
+/// Throws BadInput if the world has several robots: `command` [seifbed ...] is for one.
+void refuse_team(const worlds::World& world, const std::string& command);
 
 /// Estimators, scoring and seed come from `world`; the rest is recorded.
 PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, const seif::Registry& registry);

@@ -32,35 +32,60 @@ void refuse_if_thrown(const worlds::Node& document, const std::string& path, Pro
   }
 }
 
+/// A robot of the world, and where the document has what is its own.
+struct RobotToCheck {
+  worlds::World world;
+  std::string drive;       // path
+  std::string estimators;  // path
+};
+
+std::vector<RobotToCheck> robots_of(const worlds::World& world) {
+  if (world.robots.empty()) return {{world, "drive", "estimators"}};
+  std::vector<RobotToCheck> robots;
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    const std::string robot = fmt::format("robots.{}.", i);
+    const bool has_estimators = !world.robots[i].estimators.empty();
+    robots.push_back({worlds::world_of_robot(world, i), robot + "drive",
+                      has_estimators ? robot + "estimators" : "estimators"});
+  }
+  return robots;
+}
+
 /// As prepare_run will: one by one, so that each mistake has its place, and then together.
-void check_estimators(const worlds::Node& document, const worlds::World& world,
-                      const seif::Registry& registry, Problems& problems) {
+void check_estimators(const worlds::Node& document, const RobotToCheck& robot, const seif::Registry& registry,
+                      Problems& problems) {
+  const worlds::World& world = robot.world;
   const LogDescription log = description_without_truth(world);
   const std::size_t before = problems.size();
   for (const worlds::EstimatorChoice& choice : world.estimators) {
-    refuse_if_thrown(document, "estimators." + choice.name, problems, [&] {
+    refuse_if_thrown(document, fmt::format("{}.{}", robot.estimators, choice.name), problems, [&] {
       make_estimators(registry, able_estimators(registry, std::span(&choice, 1), log).choices, log,
                       world.seed);
     });
   }
   if (problems.size() > before || world.estimators.empty()) return;
   AbleEstimators able;
-  refuse_if_thrown(document, "estimators." + world.estimators.front().name, problems,
+  refuse_if_thrown(document, fmt::format("{}.{}", robot.estimators, world.estimators.front().name), problems,
                    [&] { able = some_able_estimators(registry, world, log); });
   if (problems.size() > before) return;
-  refuse_if_thrown(document, "drive.pose_from", problems, [&] { check_steering(world, able); });
+  refuse_if_thrown(document, robot.drive + ".pose_from", problems, [&] { check_steering(world, able); });
 }
 
-/// Each change, after those before it.
-void check_option_changes(const worlds::Node& document, const worlds::World& world,
-                          const seif::Registry& registry, Problems& problems) {
+/// Where the world has the fault that this change comes from.
+std::string place_of(const worlds::World& world, const OptionChange& change) {
+  const auto fault = std::ranges::find_if(world.faults, [&](const worlds::Fault& f) {
+    return f.kind == worlds::FaultKind::option && f.at == change.at && f.option == change.option &&
+           f.estimator == change.estimator;
+  });
+  return fmt::format("faults.{}", fault - world.faults.begin());
+}
+
+/// Each change, after those before it. `whole`: the world of all robots.
+void check_option_changes(const worlds::Node& document, const worlds::World& whole,
+                          const worlds::World& world, const seif::Registry& registry, Problems& problems) {
   std::vector<worlds::EstimatorChoice> choices = world.estimators;
   for (const OptionChange& change : option_changes(world)) {
-    const auto fault = std::ranges::find_if(world.faults, [&](const worlds::Fault& f) {
-      return f.kind == worlds::FaultKind::option && f.at == change.at && f.option == change.option &&
-             f.estimator == change.estimator;
-    });
-    const std::string path = fmt::format("faults.{}", fault - world.faults.begin());
+    const std::string path = place_of(whole, change);
     const auto choice = std::ranges::find(choices, change.estimator, &worlds::EstimatorChoice::name);
     if (choice == choices.end()) {
       worlds::refuse_value(document, path + ".estimator",
@@ -82,8 +107,11 @@ worlds::LoadResult load_runnable_world(const std::filesystem::path& file,
   return worlds::load_world(
       file, overrides, estimator_schemas(registry), version,
       [&](const worlds::Node& document, const worlds::World& world, std::vector<worlds::Problem>& problems) {
-        check_estimators(document, world, registry, problems);
-        if (problems.empty()) check_option_changes(document, world, registry, problems);
+        const std::vector<RobotToCheck> robots = robots_of(world);
+        for (const RobotToCheck& robot : robots) check_estimators(document, robot, registry, problems);
+        if (!problems.empty()) return;
+        for (const RobotToCheck& robot : robots)
+          check_option_changes(document, world, robot.world, registry, problems);
       });
 }
 

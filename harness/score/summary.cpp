@@ -150,6 +150,7 @@ Summary parse_summary(std::istream& text) {
 }
 
 Summary read_summary(const std::filesystem::path& file) {
+  refuse_team_folder(file.parent_path());
   const bool is_there = std::filesystem::exists(file);
   if (!is_there && is_going_on(file.parent_path()))
     throw BadInput(fmt::format(

@@ -9,6 +9,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/run/prepared_run.hpp"
 #include "harness/stress/live_measure.hpp"
 #include "harness/stress/resident_memory.hpp"
 #include "harness/stress/warm_start.hpp"
@@ -47,6 +48,7 @@ worlds::World load(const StressPlan& plan, const seif::Registry& registry) {
   worlds::LoadResult loaded =
       worlds::load_world(file, plan.overrides, estimator_schemas(registry), program_version());
   if (!loaded.world) throw BadInput(worlds::to_string(loaded.problems.front()));
+  refuse_team(*loaded.world, "seifbed stress");
   write_whole_file(file, loaded.resolved);
   return std::move(*loaded.world);
 }

@@ -129,6 +129,7 @@ BegunSweep begin_sweep(const SweepChoices& choices, const std::filesystem::path&
   });
   if (!loaded.world) return {std::nullopt, loaded.problems};
   const worlds::World& world = *loaded.world;
+  refuse_team(world, "seifbed sweep");
   plan.name = world.name;
   plan.baseline = choose_baseline(choices.baseline, world.estimators);
   const TemporaryFolder staged;

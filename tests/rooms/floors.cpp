@@ -18,7 +18,7 @@ constexpr std::array<std::array<std::string_view, 5>, 10> floors = {{
     {"readers", "recording", "simulation"},
     {"estimators", "score"},
     {"exports", "run"},
-    {"comparison", "film", "stress"},
+    {"comparison", "film", "stress", "team"},
     {"doctor", "paper", "sweep"},
     {"report"},
     {"live"},
