@@ -19,6 +19,7 @@
 namespace seif {
 
 class LocalBelief;
+class TeamMember;
 
 /// The parts of an update that are timed separately. A filter without one of these parts never reports it.
 enum class Stage { motion, measurement, sparsification, mean_recovery };
@@ -89,6 +90,9 @@ class Estimator {
   /// The interface that data association needs (association/local_belief.hpp). Null: the filter cannot provide
   /// it in bounded work, so its observations must name their landmarks.
   virtual LocalBelief* local_belief() { return nullptr; }
+
+  /// The interface that exchange with other robots needs (team/team_member.hpp). Null: the filter exchanges nothing.
+  virtual TeamMember* team_member() { return nullptr; }
 
   /// T_world_robot as the filter believes it now.
   virtual Pose2 pose() const = 0;

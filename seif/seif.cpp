@@ -67,6 +67,7 @@ void Seif::make_keeper(const Pose2& start) {
       auto keeper = std::make_unique<TreeMean>(options_.tree, start);
       tree_ = &keeper->tree();
       belief_ = std::make_unique<TreeBelief>(state_, *tree_, T_robot_sensor_, asked_);
+      news_ = std::make_unique<TreeNews>(state_, *tree_);
       keeper_ = std::move(keeper);
       return;
     }
@@ -187,8 +188,7 @@ void Seif::forget_pose(const Surroundings& surroundings, double t) {
       to_drop_.push_back(slot);
   }
   if (to_drop_.empty()) return;
-  if (!freeze(state_, to_drop_, frozen_) || !keeper_->freeze(state_, frozen_))
-    throw NumericalFailure("relocation", t);
+  if (!freeze_dropped()) throw NumericalFailure("relocation", t);
 }
 
 /// Computes the noise of the linearisation if a rough guess says that it may matter. So the usual update pays
@@ -355,10 +355,14 @@ void Seif::sparsify(double t) {
   if (to_drop_.empty()) return;
   const std::optional<double> anchoring = seif::sparsify(state_, SparsificationRule::gauge_free, to_drop_);
   if (!anchoring) throw NumericalFailure("sparsification", t);
-  if (state_.keeps_frozen_apart() && !freeze(state_, to_drop_, frozen_))
-    throw NumericalFailure("freezing", t);
-  if (!keeper_->freeze(state_, frozen_)) throw NumericalFailure("freezing", t);
+  if (!freeze_dropped()) throw NumericalFailure("freezing", t);
   anchoring_ += *anchoring;
+}
+
+bool Seif::freeze_dropped() {
+  if (state_.keeps_frozen_apart() && !freeze(state_, to_drop_, frozen_)) return false;
+  if (tell_) tell_(frozen_);
+  return keeper_->freeze(state_, frozen_);
 }
 
 /// (L L')^-1 in the rows of the pose, the first ones of the window.

@@ -6,10 +6,12 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "seif/association/local_belief.hpp"
@@ -20,6 +22,7 @@
 #include "seif/mean_recovery.hpp"
 #include "seif/observation_factor.hpp"
 #include "seif/start_frame.hpp"
+#include "seif/team/tree_news.hpp"
 #include "seif/tree/condensation_tree.hpp"
 #include "seif/tree/tree_belief.hpp"
 
@@ -86,6 +89,10 @@ class Seif final : public InformationFilter {
   bool change_option(std::string_view option, double value) override;
   /// With MeanRecovery::tree; null otherwise.
   LocalBelief* local_belief() override { return belief_.get(); }
+  /// The same: what others have told.
+  TreeNews* news() { return news_.get(); }
+  /// From now on calls `tell` with all that is frozen.
+  void tell_frozen_to(std::function<void(const FrozenPiece&)> tell) { tell_ = std::move(tell); }
 
  protected:
   Eigen::Vector2d mean(int slot) const override { return keeper_->mean(state_, slot); }
@@ -110,6 +117,7 @@ class Seif final : public InformationFilter {
   [[nodiscard]] bool add_new(const Scan& scan);
   void solve_window(double t);
   void sparsify(double t);
+  [[nodiscard]] bool freeze_dropped();
 
   SeifOptions options_;
   StartFrame start_;
@@ -117,6 +125,8 @@ class Seif final : public InformationFilter {
   CondensationTree* tree_ = nullptr;  // of the keeper, if it has one
   AskedOfFilter asked_;               // by belief_
   std::unique_ptr<LocalBelief> belief_;
+  std::unique_ptr<TreeNews> news_;
+  std::function<void(const FrozenPiece&)> tell_;
   double anchoring_ = 0.0;  // [nat]
   std::int64_t gated_ = 0, weakened_ = 0, relocations_ = 0;
   std::optional<double> innovation_;                      // [-] v' S^-1 v of the latest scan

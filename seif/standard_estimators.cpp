@@ -13,6 +13,7 @@
 #include "seif/registry.hpp"
 #include "seif/relocating/relocating_filter.hpp"
 #include "seif/seif.hpp"
+#include "seif/team/team_filter.hpp"
 
 namespace seif {
 namespace {
@@ -241,22 +242,23 @@ EstimatorType eseif() {
 
 // Ours.
 
-void add_linearisation(OptionTable<SeifOptions>& table) {
+template <class Struct>
+void add_linearisation(OptionTable<Struct>& table) {
   table
       .number(
-          "first_estimates", [](SeifOptions& o) -> int& { return o.first_estimates; }, {0, 1000},
+          "first_estimates", [](Struct& o) -> int& { return o.first_estimates; }, {0, 1000},
           "Scans after which a landmark's first estimate is settled at the latest. First estimates fix what "
           "the filter cannot observe; 0: none [-].")
       .number(
-          "relinearise_above", [](SeifOptions& o) -> double& { return o.relinearise_above; }, {.min = 0.0},
+          "relinearise_above", [](Struct& o) -> double& { return o.relinearise_above; }, {.min = 0.0},
           "Linearises an observation again after the update if its nonlinearity is above this [sigma].")
       .number(
-          "linearisation_noise", [](SeifOptions& o) -> double& { return o.linearisation_noise; },
+          "linearisation_noise", [](Struct& o) -> double& { return o.linearisation_noise; },
           {.min = 0.0, .max = 100.0},
           "With the tree: what an observation lacks in linearity counts as noise, with this number of times "
           "its standard deviation; 0: not at all [-].")
       .number(
-          "closing_gate", [](SeifOptions& o) -> double& { return o.closing_gate; }, {.min = 0.0},
+          "closing_gate", [](Struct& o) -> double& { return o.closing_gate; }, {.min = 0.0},
           "Linearises an observation at the measurement if the landmark is seen farther from its mean than "
           "this many times the measured range; 0: never [-].");
 }
@@ -276,22 +278,27 @@ void add_mean_recovery(OptionTable<SeifOptions>& table) {
           "With multilevel: groups of each level that an update moves, besides those near the robot [-].")
       .number(
           "relaxed_groups", [](SeifOptions& o) -> int& { return o.multilevel.relaxed_groups; }, {0, 1000},
-          "With multilevel: groups of about ten landmarks whose landmarks an update moves one by one [-].")
+          "With multilevel: groups of about ten landmarks whose landmarks an update moves one by one [-].");
+}
+
+template <class Struct>
+void add_tree(OptionTable<Struct>& table) {
+  table
       .number(
-          "tree_unknowns", [](SeifOptions& o) -> int& { return o.tree.most_unknowns; }, {8, 1'000'000},
+          "tree_unknowns", [](Struct& o) -> int& { return o.tree.most_unknowns; }, {8, 1'000'000},
           "With the tree: unknowns at one node above which landmarks far from the robot move as groups, "
           "which turn and change their size [-].")
       .number(
-          "tree_grain", [](SeifOptions& o) -> double& { return o.tree.grain; }, {0.01, 100.0},
+          "tree_grain", [](Struct& o) -> double& { return o.tree.grain; }, {0.01, 100.0},
           "With the tree: distance from the robot over size of the coarsest groups [-].")
       .number(
-          "tree_blocks", [](SeifOptions& o) -> int& { return o.tree.most_blocks; }, {0, 1'000'000'000},
+          "tree_blocks", [](Struct& o) -> int& { return o.tree.most_blocks; }, {0, 1'000'000'000},
           "With the tree: blocks that an update may touch before it stops to prepare the next zone, or more "
           "if the robot would arrive before it is ready or a closure has bent the map; 0: all at once, so "
           "that no "
           "observation waits [-].")
       .choice(
-          "tree_frames", [](SeifOptions& o) -> bool& { return o.tree.turns; },
+          "tree_frames", [](Struct& o) -> bool& { return o.tree.turns; },
           OptionChoices<bool>{{"turning", true}, {"fixed", false}},
           "With the tree: whether what was learnt of a part of the map turns with that part when a closure "
           "turns "
@@ -304,11 +311,49 @@ EstimatorType seif() {
   add_linearisation(table);
   add_gates(table);
   add_mean_recovery(table);
+  add_tree(table);
   return associating_type_of<Seif>("seif",
                                    "Ours: gauge-free sparsification, null space from first estimates, mean "
                                    "by a condensation tree. Its median "
                                    "update takes constant time.",
                                    table);
+}
+
+struct MultiSeifOptions : SeifOptions {
+  TeamOptions team;
+};
+
+EstimatorType multi_seif() {
+  using Struct = MultiSeifOptions;
+  OptionTable<Struct> table;
+  add_burst(table);
+  add_linearisation(table);
+  add_gates(table);
+  add_tree(table);
+  table
+      .number(
+          "tell_after", [](Struct& o) -> int& { return o.team.tell_after; }, {1, 100'000},
+          "Updates after which the robot tells the others what it has learnt [-].")
+      .number(
+          "most_told", [](Struct& o) -> int& { return o.team.most_told; }, {2, 1000},
+          "Landmarks of what is told at once. More are fewer bytes for each and more work for whoever learns "
+          "it [-].")
+      .number(
+          "listen_after", [](Struct& o) -> int& { return o.team.listen_after; }, {1, 100'000},
+          "Updates between two additions of what others have told [-].")
+      .number(
+          "most_learnt", [](Struct& o) -> int& { return o.team.most_learnt; }, {2, 100'000},
+          "Landmarks of what is added at once [-].");
+  return {
+      .name = "multi_seif",
+      .help =
+          "A seif for a team: robots tell each other what they have learnt, and each has one map of all of "
+          "it. Landmarks must bear names.",
+      .options = table.specs(),
+      .make = [table](const EstimatorSetup& setup, const Options& options) {
+        const MultiSeifOptions chosen = table.read(options);
+        return std::make_unique<TeamFilter>(std::make_unique<Seif>(setup, chosen), chosen.team);
+      }};
 }
 
 EstimatorType ekf() {
@@ -343,6 +388,7 @@ Registry standard_estimators() {
       "sparsification.",
       SparsificationRule::modified));
   registry.add(seif());
+  registry.add(multi_seif());
   registry.add(seif_gauge_free());
   registry.add(eseif());
   return registry;

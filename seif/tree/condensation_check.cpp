@@ -40,8 +40,9 @@ int count_leaves(const CondensationRecords& records, int slot) {
   return leaves;
 }
 
-Broken broken_landmark(const CondensationRecords& records, int slot) {
+Broken broken_landmark(const CondensationRecords& records, const PlanMarking& marking, int slot) {
   const CondensedLandmark& p = records.landmark(slot);
+  if (marking.is_changed(p.leaf)) return std::nullopt;  // until the zone has moved
   const bool is_hot = records.node(p.leaf).hot;
   if (is_hot != (p.zone_index != CondensationRecords::none))
     return broken("landmark ", slot, " of leaf ", p.leaf, " is at odds with it");
@@ -94,7 +95,7 @@ std::optional<std::string> CondensationTree::broken_invariant(const InformationS
     if (zone_.is_active(h) != (state.position(slot) >= 0)) return broken("zone and window differ at ", slot);
   }
   for (int slot = 0; slot < state.landmark_count(); ++slot) {
-    if (Broken wrong = broken_landmark(records_, slot)) return wrong;
+    if (Broken wrong = broken_landmark(records_, marking_, slot)) return wrong;
   }
   for (int i = 0; i < records_.tree.size(); ++i) {
     if (Broken wrong = broken_message(records_, i)) return wrong;

@@ -50,6 +50,7 @@ struct CondensationPlan {
   std::vector<int> new_leaves;  // that stand beside the tree
   int updates = 0;              // [-]
   bool is_urgent = false;       // a closure has bent the zone
+  bool has_news = false;        // what others know
 };
 
 }  // namespace seif

@@ -2,72 +2,28 @@
 #include "seif/tree/condensation_tree.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace seif {
 
-// Leaves.
-
-/// While a plan runs, a new leaf stands beside the tree.
-int CondensationTree::add_leaf(const Eigen::Vector2d& p_world) {
-  const int leaf = records_.tree.new_leaf();
-  records_.tree.widen(leaf, p_world);
-  if (plan_.is_running) {
-    plan_.new_leaves.push_back(leaf);
-  } else {
-    attach(leaf);
-  }
-  while (static_cast<int>(records_.nodes.size()) < records_.tree.size()) records_.nodes.push_back({});
-  CondensationNode& n = records_.node(leaf);
-  n.hot = n.next_hot = true;
-  n.used = choice_.scan();
-  records_.hot_leaves.push_back(leaf);
-  return leaf;
-}
-
-/// By the middle of its box. An inner node that this adds passes on what comes to it.
-void CondensationTree::attach(int leaf) {
-  const int inner = records_.tree.attach(leaf);
-  while (static_cast<int>(records_.nodes.size()) < records_.tree.size()) records_.nodes.push_back({});
-  marking_.note_change(leaf);
-  if (inner == none) return;
-  const auto [a, b] = records_.tree.children(inner);
-  const CondensationNode& sibling = records_.node(a == leaf ? b : a);
-  if (!sibling.on_path) return;
-  records_.node(inner).on_path = true;
-  records_.node(inner).ring = sibling.ring;
-  records_.path.push_back(inner);
-}
-
-bool CondensationTree::has_room(int leaf) const {
-  return records_.node(leaf).landmarks < records_.options.most_in_leaf && records_.node(leaf).next_hot;
-}
-
-/// The nearest hot leaf that has room, or a new one.
-int CondensationTree::leaf_for(const Eigen::Vector2d& p, const Eigen::Vector2d& home) {
-  int nearest = none;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const int leaf : records_.hot_leaves) {
-    if (!has_room(leaf)) continue;
-    const int first = records_.landmark(records_.node(leaf).first_landmark).zone_index;
-    const double distance = (zone_.mean(first) - p).squaredNorm();
-    if (distance >= shortest) continue;
-    shortest = distance;
-    nearest = leaf;
-  }
-  return nearest != none ? nearest : add_leaf(home);
-}
+// Landmarks join.
 
 void CondensationTree::join(const InformationState& state, int slot) {
   const Eigen::Vector2d home = state.mean(slot) + choice_.home_offset();
-  const int leaf = leaf_for(state.mean(slot), home);
-  records_.landmarks.push_back({.leaf = leaf, .next = records_.node(leaf).first_landmark, .home = home});
+  enter(state, slot, leaves_.in_zone(state.mean(slot), home), home);
   records_.landmark(slot).zone_index = zone_.add(slot, state.mean(slot));
+  ++epoch_;
+}
+
+void CondensationTree::join_anywhere(const InformationState& state, int slot, const Eigen::Vector2d& home) {
+  enter(state, slot, leaves_.anywhere(home), home);
+}
+
+void CondensationTree::enter(const InformationState& state, int slot, int leaf, const Eigen::Vector2d& home) {
+  records_.landmarks.push_back({.leaf = leaf, .next = records_.node(leaf).first_landmark, .home = home});
   records_.landmark(slot).planned = state.mean(slot);
   records_.node(leaf).first_landmark = slot;
   records_.tree.widen(leaf, home);
   ++records_.node(leaf).landmarks;
-  ++epoch_;
 }
 
 void CondensationTree::hold(const InformationState& state, std::span<const int> slots, double sd) {
@@ -181,9 +137,39 @@ bool CondensationTree::move_zone(InformationState& state) {
   for (const FrozenPiece& piece : plan_.fresh.all()) elements_.add(piece, zone_);
   plan_.fresh.clear();
   marking_.forget_changes();
-  for (const int leaf : plan_.new_leaves) attach(leaf);
+  for (const int leaf : plan_.new_leaves) leaves_.attach(leaf);
   plan_.new_leaves.clear();
   return done;
+}
+
+// What others know.
+
+void CondensationTree::add_anywhere(const InformationState& state, const FrozenPiece& piece) {
+  const int owner = elements_.add_anywhere(piece, [&](int slot) { return mean(state, slot); });
+  if (owner == none) return;
+  marking_.note_news(owner);
+  for (const FrozenPiece::Member& m : piece.members) {
+    marking_.note_news(records_.landmark(m.slot).leaf);
+    news_.add(m.slot);
+  }
+}
+
+void CondensationTree::begin_news_plan(const InformationState& state) {
+  news_.linearise([&](int slot) { return mean(state, slot); });
+  plan_.hot_leaves = records_.hot_leaves;
+  begin_plan(state, false);
+  plan_.has_news = true;
+  leaves_.begin_news();
+}
+
+/// What a closure far away has moved is linearised again where it is now.
+void CondensationTree::repeat_news(const InformationState& state) {
+  constexpr double most_sigmas = 3.0;  // of a sighting
+  const double most = most_sigmas * state.first_estimates().sighting_sd();
+  blocks_touched_ += static_cast<std::int64_t>(news_.size());
+  if (!news_.must_repeat(records_.turning(), most, [&](int slot) { return mean(state, slot); })) return;
+  news_.for_each([&](int slot) { marking_.note_news(records_.landmark(slot).leaf); });
+  begin_news_plan(state);
 }
 
 bool CondensationTree::solve_all(InformationState& state) {
@@ -207,13 +193,16 @@ bool CondensationTree::bring(InformationState& state, std::span<const int> slots
 /// closure has bent the zone. [-]
 std::int64_t CondensationTree::blocks_left(const InformationState& state) const {
   constexpr double ready_after = 0.6;  // of the updates until the robot arrives
+  constexpr int news_share = 4;        // [-] the zone cannot move until the plan is ready
   const std::int64_t most = records_.options.most_blocks;
   const std::int64_t touched = blocks_touched() + state.blocks_touched() - update_begun_at_;
   const bool is_late = plan_.updates > ready_after * choice_.updates_to_arrive();
+  if (plan_.has_news) return std::max(most, news_share * most - touched);
   return std::max(most / 4, (is_late || plan_.is_urgent ? most + most / 3 : most) - touched);
 }
 
 bool CondensationTree::end_update(InformationState& state) {
+  if (!plan_.is_running && !news_.is_empty()) repeat_news(state);
   if (records_.options.most_blocks == 0) return true;
   if (!plan_.is_running && records_.options.turns && choice_.is_bent(state)) {
     plan_.hot_leaves = records_.hot_leaves;
@@ -261,6 +250,8 @@ Eigen::Vector2d CondensationTree::mean(const InformationState& state, int slot) 
   const CondensedLandmark& p = records_.landmark(slot);
   if (p.zone_index != none) {
     read_zone(state);
+  } else if (p.settled_at == none) {
+    return p.planned;  // news of which no plan knows yet
   } else {
     read(state, p.settled_at);
   }

@@ -1,12 +1,6 @@
 // Recovers the mean. Information far from the robot is condensed along a tree, once; means there are computed when
 // they are read. README.md here has the objects and the invariants, seif/README.md the reasons.
 //
-//           o            A leaf holds about four landmarks. The leaves around the robot are hot (*): the zone
-//        /     \         (HotZone) holds their landmarks. A node without a hot leaf below it sends one message up:
-//      o         o       its information, after elimination of the landmarks that have no block with anything else
-//     /   \    / \       (Front). What comes to the path of the hot leaves is collected in rings around the zone.
-//    0*   1*  2   3
-//
 // Omega changes in the window alone, and the window is hot. So an update solves for robot and active landmarks
 // with Omega + S, where S is the information of zone and messages: the exact mean of the whole Omega. The other
 // landmarks follow by back-substitution. Where a front would grow too large, landmarks far from the robot are
@@ -22,8 +16,10 @@
 
 #include "seif/information_state.hpp"
 #include "seif/tree/frozen_information.hpp"
+#include "seif/tree/leaf_choice.hpp"
 #include "seif/tree/leaf_elements.hpp"
 #include "seif/tree/mean_reader.hpp"
+#include "seif/tree/news_landmarks.hpp"
 #include "seif/tree/plan_marking.hpp"
 #include "seif/tree/plan_work.hpp"
 #include "seif/tree/window_solution.hpp"
@@ -97,27 +93,30 @@ class CondensationTree {
 
   /// Moves the zone at once so that it holds these landmarks, if it does not.
   [[nodiscard]] bool bring(InformationState& state, std::span<const int> slots);
-  /// Asks that the next zone hold this landmark.
-  void want(int slot) { choice_.want(slot); }
+  void want(int slot) { choice_.want(slot); }  // asks that the next zone hold this landmark
 
   std::int64_t blocks_touched() const;
   std::int64_t waited() const { return waited_; }  // [-] ignored observations of known landmarks, so far
   std::size_t memory_bytes() const;
 
-  /// The first broken invariant of the tree, if any, at the cost of a pass over the map.
+  // What others know, while the tree is not busy: pieces of any landmarks. At last their plan begins.
+  bool is_busy() const { return plan_.is_running || !news_.is_empty(); }
+  Eigen::Vector2d home(int slot) const { return records_.landmark(slot).home; }
+  void join_anywhere(const InformationState& state, int slot, const Eigen::Vector2d& home);
+  void add_anywhere(const InformationState& state, const FrozenPiece& piece);
+  void begin_news_plan(const InformationState& state);
+
+  /// The first one, if any, at the cost of a pass over the map.
   std::optional<std::string> broken_invariant(const InformationState& state) const;
 
  private:
   static constexpr int none = -1;
-
-  bool has_room(int leaf) const;
-  int leaf_for(const Eigen::Vector2d& p, const Eigen::Vector2d& home);
-  int add_leaf(const Eigen::Vector2d& p_world);
-  void attach(int leaf);
+  void enter(const InformationState& state, int slot, int leaf, const Eigen::Vector2d& home);
   bool is_ready(int slot) const;
   void begin_plan(const InformationState& state, bool of_all);
   [[nodiscard]] bool finish_plan(InformationState& state);
   [[nodiscard]] bool move_zone(InformationState& state);
+  void repeat_news(const InformationState& state);
   std::int64_t blocks_left(const InformationState& state) const;
   void follow_in_zone(const InformationState& state);
   void read_zone(const InformationState& state) const;
@@ -134,17 +133,18 @@ class CondensationTree {
   PlanMarking marking_{records_, plan_, grouping_};
   PlanWork work_{records_, plan_, front_, grouping_, reader_};
   ZoneChoice choice_{records_};
+  LeafChoice leaves_{records_, plan_, marking_, zone_, choice_};
   ZoneSwitch switch_{records_, plan_, held_, zone_};
   LeafElements elements_{records_, front_.pool()};
   WindowSolution window_{records_, zone_};
   std::vector<int> zone_indices_;
+  NewsLandmarks news_;
   std::int64_t epoch_ = 1;
   std::int64_t zone_followed_at_ = 0;  // epoch, as below
   mutable std::int64_t zone_read_at_ = 0;
   mutable Eigen::VectorXd zone_read_;  // with room to grow [m]
   bool switch_waits_ = false;          // a zone that is ready has waited for an update with room
-  std::int64_t update_begun_at_ = 0;   // [-] blocks
-  std::int64_t blocks_touched_ = 0, waited_ = 0;
+  std::int64_t update_begun_at_ = 0, blocks_touched_ = 0, waited_ = 0;  // [-] the first two in blocks
 };
 
 }  // namespace seif

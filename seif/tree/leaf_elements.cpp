@@ -7,6 +7,12 @@ void LeafElements::add(const FrozenPiece& piece, const HotZone& zone) {
   const int owner = owner_of(piece);
   Condensed& element = records_.node(owner).own;
   mover_.turn(motion_in(zone, element), element);
+  put(piece, owner);
+}
+
+/// To an element that is turned to where its landmarks are.
+void LeafElements::put(const FrozenPiece& piece, int owner) {
+  Condensed& element = records_.node(owner).own;
   ++visit_;
   for (std::size_t i = 0; i < element.boundary.size(); ++i) {
     CondensedLandmark& p = records_.landmark(element.boundary[i].variable);
@@ -59,17 +65,27 @@ int LeafElements::owner_of(const FrozenPiece& piece) {
   return best != none ? best : records_.held_leaf;
 }
 
+/// From where it is to where its landmarks in the zone are.
 BodyMotion LeafElements::motion_in(const HotZone& zone, const Condensed& element) {
-  boundary_.begin(records_.turning());
-  const double* reference = element.reference.data();
+  begin_motion(element);
   for (const Condensed::Member& m : element.boundary) {
     if (const int h = records_.landmark(m.variable).zone_index; h != none) {
-      const Eigen::Vector2d now = zone.mean(h);
-      boundary_.add(records_.moved_place(m.variable, reference, now.data()));
+      note_motion(m.variable, zone.mean(h));
+    } else {
+      next_reference_ += 2;
     }
-    reference += 2;
   }
   return boundary_.fit();
+}
+
+void LeafElements::begin_motion(const Condensed& element) {
+  boundary_.begin(records_.turning());
+  next_reference_ = element.reference.data();
+}
+
+void LeafElements::note_motion(int slot, const Eigen::Vector2d& now) {
+  boundary_.add(records_.moved_place(slot, next_reference_, now.data()));
+  next_reference_ += 2;
 }
 
 }  // namespace seif

@@ -4,12 +4,15 @@
 
 namespace seif {
 
-bool PlanMarking::is_changed(int leaf) const { return std::ranges::find(new_, leaf) != new_.end(); }
+bool PlanMarking::is_changed(int leaf) const {
+  return std::ranges::find(changed_, leaf) != changed_.end() || std::ranges::find(news_, leaf) != news_.end();
+}
 
 void PlanMarking::begin() {
   reset();
   find_path();
   mark_changed();
+  mark_news();
   mark_stale(0);
   mark_expired(0);
   finish();
@@ -30,7 +33,7 @@ void PlanMarking::reset() {
   plan_.is_running = true;
   ++plan_.number;
   plan_.updates = 0;
-  plan_.is_urgent = false;
+  plan_.is_urgent = plan_.has_news = false;
   plan_.read = plan_.carried_so_far = plan_.ready = 0;
   plan_.stale.clear();
 }
@@ -64,7 +67,19 @@ void PlanMarking::mark_changed() {
   for (const int n : plan_.path) {
     if (!records_.node(n).on_path) mark_stale(n);
   }
-  for (const int leaf : new_) mark_stale(leaf);
+  for (const int leaf : changed_) mark_stale(leaf);
+}
+
+/// No group of a node above may begin or stay.
+void PlanMarking::mark_news() {
+  for (const int leaf : news_) {
+    mark_stale(leaf);
+    for (int n = leaf; n != none && records_.node(n).distance_known_in != plan_.number;
+         n = records_.tree.parent(n)) {
+      records_.node(n).distance_known_in = plan_.number;
+      records_.node(n).distance_ratio = 0.0;
+    }
+  }
 }
 
 void PlanMarking::finish() {
@@ -103,7 +118,8 @@ void PlanMarking::mark_expired(int at) {
   const SentMessage& now = records_.sent(at);
   const bool changes = is_stale(at);
   const auto enters = [&](int leaf) { return now.reach.intersects(records_.tree.box(leaf)); };
-  if (!changes && std::ranges::none_of(plan_.hot_leaves, enters)) return;
+  if (!changes && std::ranges::none_of(plan_.hot_leaves, enters) && std::ranges::none_of(news_, enters))
+    return;
   if (!changes && std::ranges::any_of(now.groups, [&](int g) { return grouping_.is_expired(g); }))
     mark_stale(at);
   records_.for_each_source(at, [&](int source) { mark_expired(source); });

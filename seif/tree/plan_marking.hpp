@@ -18,10 +18,16 @@ class PlanMarking {
       : records_(records), plan_(plan), grouping_(grouping) {}
 
   /// A leaf that is new in the tree.
-  void note_change(int leaf) { new_.push_back(leaf); }
-  /// Whether the leaf is new, since the zone moved last.
+  void note_change(int leaf) { changed_.push_back(leaf); }
+  /// A leaf with a landmark of which news have come. Until the zone has moved no group holds it: its landmarks move
+  /// against each other.
+  void note_news(int leaf) { news_.push_back(leaf); }
+  /// Whether it is such a leaf, since the zone moved last.
   bool is_changed(int leaf) const;
-  void forget_changes() { new_.clear(); }
+  void forget_changes() {
+    changed_.clear();
+    news_.clear();
+  }
 
   /// A plan for plan.hot_leaves.
   void begin();
@@ -33,6 +39,7 @@ class PlanMarking {
   void reset();
   void find_path();
   void mark_changed();
+  void mark_news();
   void finish();
   int next_receiver(int at) const;
   void mark_stale(int at);
@@ -47,7 +54,7 @@ class PlanMarking {
   CondensationRecords& records_;
   CondensationPlan& plan_;
   Grouping& grouping_;
-  std::vector<int> new_;  // leaves
+  std::vector<int> changed_, news_;  // leaves
 };
 
 }  // namespace seif
