@@ -30,6 +30,21 @@ void describe_member(Fields& fields, TeamRobotFile& member, const World& world,
   describe_estimators(fields, robot.estimators, estimators, "its estimators; none: those of the world");
 }
 
+constexpr double longest_range = 1e6;  // [m]
+constexpr double longest_delay = 1e3;  // [s]
+constexpr double least_rate = 1.0;     // [byte/s]
+constexpr double highest_rate = 1e12;  // [byte/s]
+
+void describe_radio(Fields& fields, Radio& radio) {
+  fields.number("range_m", radio.range, between(0, longest_range),
+                "how far it reaches; 0: nobody hears anybody");
+  fields.number("loss", radio.loss, between(0, 1), "probability that a packet does not come");
+  fields.number("cut_off", radio.cut_off, between(0, 1), "probability that only the begin of a packet comes");
+  fields.number("delay_s", radio.delay, between(0, longest_delay), "time until a packet comes");
+  fields.number("rate_bytes_s", radio.rate, between(least_rate, highest_rate),
+                "bytes a second that one robot sends");
+}
+
 }  // namespace
 
 void describe_team(Fields& fields, WorldFile& file, const EstimatorSchemas& estimators) {
@@ -37,6 +52,9 @@ void describe_team(Fields& fields, WorldFile& file, const EstimatorSchemas& esti
       "robots", file.robots,
       [&](Fields& item, TeamRobotFile& member) { describe_member(item, member, file.world, estimators); },
       "several robots in one world, each with a drive and estimators of its own; none: the one above");
+  fields.section("radio",
+                 "how the robots of a team exchange what they know; each packet goes to all in range",
+                 [&](Fields& inner) { describe_radio(inner, file.world.radio); });
 }
 
 }  // namespace worlds

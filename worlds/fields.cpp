@@ -71,9 +71,10 @@ void Fields::names(std::string_view key, std::vector<std::string>& value, std::s
 }
 
 std::string_view unit_of_key(std::string_view key) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 17> units = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 18> units = {{
       {"_per_m2", "per m^2"},  // longer endings come first
       {"_deg_s2", "deg/s^2"},
+      {"_bytes_s", "byte/s"},
       {"_deg_s", "deg/s"},
       {"_m_s2", "m/s^2"},
       {"_per_m", "per m"},

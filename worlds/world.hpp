@@ -11,6 +11,7 @@
 #include "worlds/estimator_choice.hpp"
 #include "worlds/fault.hpp"
 #include "worlds/film.hpp"
+#include "worlds/radio.hpp"
 #include "worlds/robot.hpp"
 #include "worlds/sensors.hpp"
 #include "worlds/solids.hpp"
@@ -46,6 +47,7 @@ struct World {
   /// Empty: there is one robot, `robot`. Otherwise these are all robots, and what each has of its own replaces the
   /// value of the same name above.
   std::vector<TeamRobot> robots;
+  Radio radio;  // of the robots of a team
 };
 
 }  // namespace worlds

@@ -41,8 +41,8 @@ struct RunArguments {
 
 int print_result(const TeamResult& result, const std::filesystem::path& folder,
                  const OutputArguments& output) {
-  for (const auto& [name, robot] : result.robots) {
-    if (!robot.error.empty()) tell_error(fmt::format("{}: {}", name, robot.error));
+  for (const TeamResult::Robot& robot : result.robots) {
+    if (!robot.run.error.empty()) tell_error(fmt::format("{}: {}", robot.name, robot.run.error));
   }
   return print_output(output, to_json(result), scoreboard(result), folder, exit_code(result));
 }

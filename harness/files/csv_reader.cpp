@@ -84,6 +84,8 @@ std::int64_t CsvReader::integer(int column, std::int64_t min, std::int64_t max) 
   return rows_.integer(static_cast<std::size_t>(column), name(column), min, max);
 }
 
+std::string_view CsvReader::text(int column) const { return rows_.cell(static_cast<std::size_t>(column)); }
+
 void CsvReader::fail(int column, const std::string& reason) const {
   rows_.fail(static_cast<std::size_t>(column), fmt::format("{}: {}", name(column), reason));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/files/row_reader.hpp"
@@ -36,6 +37,7 @@ class CsvReader {
   bool is_empty(int column) const;
   double number(int column) const;                                             // finite
   std::int64_t integer(int column, std::int64_t min, std::int64_t max) const;  // min <= value <= max
+  std::string_view text(int column) const;                                     // until the next row
   [[noreturn]] void fail(int column, const std::string& reason) const;
 
  private:

@@ -39,6 +39,12 @@ CsvWriter& CsvWriter::value(std::int64_t number) {
   return *this;
 }
 
+CsvWriter& CsvWriter::text(std::string_view cell) {
+  separate();
+  row_ += cell;
+  return *this;
+}
+
 CsvWriter& CsvWriter::leave_empty(int cells) {
   for (int i = 0; i < cells; ++i) separate();
   return *this;

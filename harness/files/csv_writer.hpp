@@ -21,6 +21,8 @@ class CsvWriter {
 
   CsvWriter& value(double number);
   CsvWriter& value(std::int64_t number);
+  /// A cell that needs no quotes.
+  CsvWriter& text(std::string_view cell);
   CsvWriter& leave_empty(int cells = 1);
   void end_row();
 

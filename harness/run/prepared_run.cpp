@@ -11,6 +11,7 @@
 #include "harness/files/bad_input.hpp"
 #include "harness/files/output_file.hpp"
 #include "harness/recording/run_folder.hpp"
+#include "harness/run/heard_packets.hpp"
 #include "harness/run/replay_settings.hpp"
 #include "harness/run/without_names.hpp"
 #include "harness/simulation/simulated_stream.hpp"
@@ -106,6 +107,7 @@ PreparedRun prepare_replay(const LogChoice& log, const worlds::World& world, con
     return fmt::format("--estimators {}", fmt::join(types, ","));
   };
   set_estimators(run, world, registry, some_able_estimators(registry, world.estimators, *run.log, remedy));
+  run.stream = with_heard_packets(std::move(run.stream), log.path, *run.believers);
   run.plan.name = run.log->name;
   return run;
 }

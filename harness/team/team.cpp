@@ -37,7 +37,7 @@ worlds::World member_world(const worlds::World& world, std::size_t robot) {
 }
 
 Team prepare_team(const worlds::World& world, const seif::Registry& registry) {
-  Team team{.world = world.name, .seed = world.seed, .members = {}};
+  Team team{.world = world.name, .seed = world.seed, .radio = world.radio, .members = {}};
   std::vector<std::unique_ptr<sim::Simulator>> simulators = sim::make_team(world);
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
     TeamMember& member = team.members.emplace_back();

@@ -22,6 +22,7 @@ struct TeamMember {
 struct Team {
   std::string world;
   std::uint64_t seed = 0;
+  worlds::Radio radio;
   std::vector<TeamMember> members;  // in the order of the world
 };
 

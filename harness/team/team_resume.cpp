@@ -36,8 +36,7 @@ std::optional<TeamResult> resume_team(const fs::path& run, const seif::Registry&
   Team again = prepare_team(*loaded.world, registry);
   open_team_folder(again, workshop.path(), *loaded.world, loaded.resolved);
   TeamResult result = execute(again, workshop.path(), quiet);
-  const bool failed =
-      std::ranges::any_of(result.robots, [](const auto& r) { return !r.second.error.empty(); });
+  const bool failed = std::ranges::any_of(result.robots, [](const auto& r) { return !r.run.error.empty(); });
   if (!failed && !result.interrupted) take_place(workshop.path(), run);
   return result;
 }

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "harness/run/run.hpp"
+#include "harness/team/team_exchange.hpp"
 
 namespace harness {
 
@@ -16,7 +16,12 @@ struct TeamResult {
   std::uint64_t seed = 0;
   bool interrupted = false;      // by the user
   double realtime_factor = 0.0;  // [-] simulated time over real time
-  std::vector<std::pair<std::string, RunResult>> robots = {};
+  struct Robot {
+    std::string name;
+    RunResult run;
+    std::vector<ExchangeSummary> exchanged;
+  };
+  std::vector<Robot> robots = {};
 };
 
 /// The summary.json of a team: its own values, and the summaries of all robots by their names.

@@ -50,6 +50,7 @@ inline EstimatorSchemas fake_estimators() {
     options["gate"] = gate;
   };
   schemas.types["seif"] = schemas.types["ekf"];
+  schemas.types["multi_seif"] = schemas.types["ekf"];
   schemas.types["seif_report"] = [](Fields& fields, std::map<std::string, OptionValue>& options) {
     std::int64_t theta_x = 6;
     std::int64_t recovered = 10;
@@ -66,8 +67,9 @@ inline std::filesystem::path gallery_file(const std::string& name) {
 }
 
 inline const std::vector<std::string>& gallery() {
-  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",    "orchard", "forest",
-                                                 "walls",     "slippery",   "umbmark", "faults",  "team"};
+  static const std::vector<std::string> names = {"courtyard", "report2002", "loop",     "orchard",
+                                                 "forest",    "walls",      "slippery", "umbmark",
+                                                 "faults",    "team",       "fleet"};
   return names;
 }
 

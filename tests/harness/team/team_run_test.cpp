@@ -55,6 +55,11 @@ class TeamRun : public testing::Test {
       EXPECT_EQ(read_file(folder_ / a / file), read_file(folder_ / b / file)) << file;
   }
 
+  /// Options for robots that tell each other what they learn.
+  static std::string exchanging() {
+    return " --set 'estimators={ekf: {}, multi_seif: {tell_after: 20, listen_after: 10}}'";
+  }
+
   static std::string hash_of(const fs::path& run) {
     return nlohmann::json::parse(read_file(run / "summary.json")).at("trajectory_hash");
   }
@@ -131,6 +136,65 @@ TEST_F(TeamRun, OfAWorldWhoseRobotNamesAnotherEstimator) {
   EXPECT_TRUE(robots.at("r1").at("estimators").contains("ekf"));
   EXPECT_EQ(call(folder_, "replay run/r2 --quiet --out replayed").exit_code, 0);
   EXPECT_EQ(hash_of(folder_ / "replayed"), hash_of(folder_ / "run/r2"));
+}
+
+TEST_F(TeamRun, LetsEstimatorsExchangeWhatTheyKnow) {
+  const Called run = call(folder_, "run world.yaml --json --out run" + exchanging());
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const nlohmann::json robots = nlohmann::json::parse(run.output).at("robots");
+  int told = 0;
+  for (const auto& [name, robot] : robots.items()) {
+    const nlohmann::json& exchange = robot.at("exchange").at("multi_seif");
+    told += exchange.at("told_pieces").get<int>();
+    EXPECT_GT(exchange.at("sent_bytes"), 0) << name;
+    EXPECT_LE(exchange.at("learnt_pieces"), exchange.at("heard_pieces")) << name;
+    EXPECT_GE(exchange.at("joined_s").size(), 1U) << name;
+    EXPECT_FALSE(robot.at("exchange").contains("ekf"));
+    EXPECT_LT(robot.at("estimators").at("multi_seif").at("landmark_rmse_aligned_m"), 0.3) << name;
+  }
+  EXPECT_GT(told, 0);
+}
+
+TEST_F(TeamRun, ThatExchangesIsReplayedToTheSameBits) {
+  ASSERT_EQ(call(folder_, "run world.yaml --quiet --out run" + exchanging()).exit_code, 0);
+  for (const char* robot : {"r0", "r5"}) {
+    const std::string folder = std::string("run/") + robot;
+    const Called replayed = call(folder_, "replay " + folder + " --quiet --out replayed_" + robot);
+    ASSERT_EQ(replayed.exit_code, 0) << replayed.errors;
+    EXPECT_EQ(hash_of(folder_ / ("replayed_" + std::string(robot))), hash_of(folder_ / folder)) << robot;
+  }
+}
+
+TEST_F(TeamRun, IsNotReplayedFromHeardPacketsThatAreNone) {
+  ASSERT_EQ(call(folder_, "run world.yaml --quiet --out run" + exchanging()).exit_code, 0);
+  for (const char* row : {"0.1,0,8,0,xy", "0.1,0,8,0,0", "0.1,9,8,0,00", "0.1,0,1,0,00", "0.1,0,8,2,00"}) {
+    test::write_file(folder_ / "run/r1/multi_seif_heard.csv",
+                     std::string("t,robot,robots,more,packet\n") + row + "\n");
+    const Called replayed = call(folder_, "replay run/r1 --quiet --out replayed");
+    EXPECT_EQ(replayed.exit_code, 2) << row;
+    EXPECT_NE(replayed.errors.find("multi_seif_heard.csv:2:"), std::string::npos) << row << replayed.errors;
+    fs::remove_all(folder_ / "replayed");
+  }
+}
+
+TEST_F(TeamRun, ThatExchangesIsCompletedToTheSameBytes) {
+  const std::string radio = exchanging() + " --set 'radio={loss: 0.5, cut_off: 0.2, delay_s: 0.3}'";
+  ASSERT_EQ(call(folder_, "run world.yaml --quiet --out whole" + radio).exit_code, 0);
+  fs::copy(folder_ / "whole", folder_ / "cut", fs::copy_options::recursive);
+  fs::remove(folder_ / "cut/summary.json");
+  test::write_file(folder_ / "cut/unfinished", "");
+  fs::remove_all(folder_ / "cut/r6");
+  ASSERT_EQ(call(folder_, "run --resume cut --quiet").exit_code, 0);
+  expect_same_bytes("whole", "cut");
+}
+
+TEST_F(TeamRun, OfRobotsThatNeverHearEachOtherIsThatOfRobotsAlone) {
+  const Called run =
+      call(folder_, "run world.yaml --json --out run" + exchanging() + " --set radio.range_m=0");
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  const nlohmann::json robots = nlohmann::json::parse(run.output).at("robots");
+  for (const auto& [name, robot] : robots.items())
+    EXPECT_TRUE(robot.at("exchange").at("multi_seif").at("joined_s").empty()) << name;
 }
 
 TEST_F(TeamRun, ErrorsNameThePlaceInTheRobot) {
