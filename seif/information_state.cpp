@@ -45,10 +45,11 @@ Eigen::Matrix2d InformationState::information(int slot) const {
   return Omega_.block<2, 2>(row, row) + frozen_.block<2, 2>(row, row);
 }
 
-int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean) {
+int InformationState::add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean, bool is_settled) {
   const int slot = landmark_count();
   if (landmark >= 0) index_.insert(landmark, slot);
   graph_.add_landmark(landmark, mean);
+  if (is_settled) graph_.landmark(slot).sightings = first_estimates_.settled_after() + 1;
   first_estimates_.add(first_estimates_.framed(mean, pose()));
   return slot;
 }

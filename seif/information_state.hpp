@@ -39,7 +39,8 @@ class InformationState {
   auto frozen() const { return frozen_.topLeftCorner(window_size(), window_size()); }
   auto r() { return r_.head(window_size()); }  // (w x 1)
   auto r() const { return r_.head(window_size()); }
-  // Scratch memory for a step, as large as the window, so that no step allocates.
+
+  /// Scratch memory for a step, as large as the window, so that no step allocates.
   auto work() { return work_.topLeftCorner(window_size(), window_size()); }           // (w x w)
   auto work_columns() { return work_columns_.topRows(window_size()); }                // (w x 3)
   auto work_columns(int n) { return wide_columns_.topLeftCorner(window_size(), n); }  // (w x n), n <= 2w
@@ -52,7 +53,7 @@ class InformationState {
 
   /// The slot of the active landmark at a position of the window.
   int active(int position) const { return active_[static_cast<std::size_t>(position)]; }
-  /// In the window, or -1 if the landmark is passive.
+  /// The position of a landmark in the window, or -1 if it is passive.
   int position(int slot) const { return graph_.landmark(slot).position; }
 
   // The map. A slot is a landmark's number in the order in which it joined.
@@ -63,24 +64,23 @@ class InformationState {
   Eigen::Vector2d residual(int slot) const;     // r_i
   Eigen::Matrix2d information(int slot) const;  // Omega_ii
 
-  /// [-] 0: a landmark that the latest scan has seen.
+  /// How many scans ago a landmark was last seen. [-] 0: in the latest scan.
   int scans_since_seen(int slot) const { return scan_ - graph_.landmark(slot).last_seen; }
   int sightings(int slot) const { return graph_.landmark(slot).sightings; }           // [-] scans that saw it
   bool has_link(int slot) const { return graph_.landmark(slot).first_link != none; }  // to a passive landmark
   void begin_scan() { ++scan_; }
   void mark_seen(int slot);
-  /// A landmark that others have told of: its first estimate will not follow its mean.
-  void settle(int slot) { graph_.landmark(slot).sightings = first_estimates_.settled_after() + 1; }
 
   /// From now on Omega() and r() hold only what is not frozen yet (freezing.hpp). Before the first landmark joins.
   void keep_frozen_apart() { keeps_frozen_apart_ = true; }
   bool keeps_frozen_apart() const { return keeps_frozen_apart_; }
 
-  /// Adds a passive landmark of which nothing is known yet. Returns its slot.
-  int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean);
+  /// Adds a passive landmark without information. Returns its slot. If it is settled, its first estimate stays.
+  int add_landmark(LandmarkId landmark, const Eigen::Vector2d& mean, bool is_settled = false);
 
   /// Takes a passive landmark into the window; returns its position there.
   int activate(int slot);
+
   /// Takes the landmark at `position`, which has no link to the robot, out of the window. The last one moves there.
   void deactivate(int position);
 
@@ -114,7 +114,7 @@ class InformationState {
   /// Blocks read or written so far. Whoever works on the window adds its blocks with touch().
   std::int64_t blocks_touched() const { return blocks_touched_; }
   void touch(std::int64_t blocks) { blocks_touched_ += blocks; }
-  /// Distinct blocks in the window.
+  /// The number of distinct blocks in the window.
   std::int64_t window_blocks() const { return std::int64_t{active_count() + 1} * (active_count() + 2) / 2; }
 
   std::size_t memory_bytes() const;

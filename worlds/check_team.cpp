@@ -86,7 +86,12 @@ void check_faults_of_team(const Node& document, const World& world, std::vector<
 
 void check_team(const Node& document, const World& world, std::vector<Problem>& problems) {
   if (is_sound(problems, {"faults"})) check_faults_of_team(document, world, problems);
-  if (world.robots.empty()) return;
+  if (world.robots.empty()) {
+    if (!(world.radio == Radio{}))
+      refuse_value(document, "radio",
+                   "the world has one robot, and nobody to hear it: 'radio' is for 'robots'", problems);
+    return;
+  }
   if (world.robots.size() == 1)
     refuse_value(document, "robots",
                  "a team has two robots or more; a lone robot is described by 'robot' and 'drive'", problems);

@@ -10,6 +10,7 @@ struct Radio {
   double cut_off = 0.0;  // [-] probability that only the begin of a packet comes
   double delay = 0.05;   // [s]
   double rate = 50'000;  // [byte/s] that one robot sends at most
+  friend bool operator==(const Radio&, const Radio&) = default;
 };
 
 }  // namespace worlds

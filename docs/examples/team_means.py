@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Means over the runs of a team: python3 docs/examples/team_means.py runs/t1 runs/t2 ..."""
+"""Means over the runs of a team, of all robots or of one:
 
+python3 docs/examples/team_means.py runs/t1 runs/t2 ... [--robot ada]
+"""
+
+import argparse
 import json
 import statistics
-import sys
 from pathlib import Path
 
 FIGURES = {
@@ -16,25 +19,43 @@ FIGURES = {
 }
 
 
-def main(folders):
-    robots = []
-    for folder in folders:
-        robots += json.loads((Path(folder) / "summary.json").read_text())["robots"].values()
+def mean(values):
+    return statistics.mean(list(values))
+
+
+def print_scores(name, scores):
+    print(name)
+    for title, (key, decimals) in FIGURES.items():
+        values = [score[key] for score in scores]
+        print(f"  {title}: {mean(values):.{decimals}f}, largest {max(values):.{decimals}f}")
+    for percentile in ("p50", "p99"):
+        print(f"  update {percentile} [us]: {mean(score['update_us'][percentile] for score in scores):.0f}")
+        print(f"  blocks {percentile}: {mean(score['blocks_touched'][percentile] for score in scores):.0f}")
+
+
+def print_exchange(exchanged):
+    print(f"  sent [kB]: {mean(x['sent_bytes'] for x in exchanged) / 1000:.0f}")
+    print(f"  joined: {sum(len(x['joined_s']) for x in exchanged)}")
+    first = [min(x["joined_s"].values()) for x in exchanged if x["joined_s"]]
+    if first:
+        print(f"  first join [s]: {mean(first):.0f}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", nargs="+", type=Path)
+    parser.add_argument("--robot", help="of this robot alone")
+    arguments = parser.parse_args()
+    runs = [json.loads((run / "summary.json").read_text()) for run in arguments.runs]
+    names = [arguments.robot] if arguments.robot else list(runs[0]["robots"])
+    robots = [run["robots"][name] for run in runs for name in names]
+    print(f"{len(runs)} runs, {mean(run['realtime_factor'] for run in runs):.0f} times real time")
     for name in robots[0]["estimators"]:
-        scores = [robot["estimators"][name] for robot in robots]
-        print(f"{name}, {len(folders)} runs")
-        for title, (key, decimals) in FIGURES.items():
-            values = [score[key] for score in scores]
-            print(f"  {title}: {statistics.mean(values):.{decimals}f}, largest {max(values):.{decimals}f}")
-        print(f"  update p50 [us]: {statistics.mean(s['update_us']['p50'] for s in scores):.0f}")
-        print(f"  blocks p50: {statistics.mean(s['blocks_touched']['p50'] for s in scores):.0f}")
-        exchanged = [robot.get("exchange", {}).get(name) for robot in robots]
-        if None in exchanged:
-            continue
-        print(f"  sent [kB]: {statistics.mean(x['sent_bytes'] for x in exchanged) / 1000:.0f}")
-        print(f"  joined: {sum(len(x['joined_s']) for x in exchanged)}")
-        print(f"  first join [s]: {statistics.mean(min(x['joined_s'].values()) for x in exchanged):.0f}")
+        print_scores(name, [robot["estimators"][name] for robot in robots])
+        exchanged = [robot["exchange"][name] for robot in robots if name in robot.get("exchange", {})]
+        if exchanged:
+            print_exchange(exchanged)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

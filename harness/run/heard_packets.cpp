@@ -54,7 +54,10 @@ class Hearer {
       : member_(member),
         rows_(file, {.required = {"t", "robot", "robots", "more", "packet"}, .optional = {}}) {
     advance();
-    if (!is_at_end_) member_.enter_team(index(1, robots() - 1), static_cast<std::size_t>(robots()));
+    if (is_at_end_) return;
+    const std::int64_t robots = rows_.integer(2, 2, static_cast<std::int64_t>(seif::most_robots));
+    member_.enter_team(static_cast<std::size_t>(rows_.integer(1, 0, robots - 1)),
+                       static_cast<std::size_t>(robots));
   }
 
   /// All that was heard before time t [s].
@@ -73,10 +76,6 @@ class Hearer {
   void advance() {
     is_at_end_ = !rows_.next();
     if (!is_at_end_) t_ = rows_.number(0);
-  }
-  std::int64_t robots() const { return rows_.integer(2, 2, static_cast<std::int64_t>(seif::most_robots)); }
-  std::size_t index(int column, std::int64_t max) const {
-    return static_cast<std::size_t>(rows_.integer(column, 0, max));
   }
 
   seif::TeamMember& member_;
@@ -127,6 +126,7 @@ void HeardPackets::hear(double t, std::span<const std::byte> packet) {
     writer_.value(t).value(static_cast<std::int64_t>(robot_)).value(static_cast<std::int64_t>(robots_));
     writer_.value(std::int64_t{more ? 1 : 0}).text(in_base_16(row)).end_row();
   }
+  writer_.flush();
 }
 
 std::unique_ptr<Stream> with_heard_packets(std::unique_ptr<Stream> log, const std::filesystem::path& folder,

@@ -19,7 +19,8 @@ namespace harness {
 /// row if `more` is 1.
 std::filesystem::path heard_file(const std::filesystem::path& folder, const std::string& estimator);
 
-/// Passes everything on to a member of a team, and writes down what it hears.
+/// Passes everything on to a member of a team, and writes down what it hears: at once, so that a run that is killed can be
+/// replayed as far as its other tables reach.
 class HeardPackets final : public seif::TeamMember {
  public:
   /// Keeps a reference to the member.

@@ -67,15 +67,15 @@ void set_estimators(PreparedRun& run, const worlds::World& world, const seif::Re
 }  // namespace
 
 PreparedRun prepare_run(const worlds::World& world, const seif::Registry& registry) {
-  refuse_team(world, "this");
+  refuse_team(world, "this call");
   return prepare_run(world, registry, sim::make_simulator(world));
 }
 
 void refuse_team(const worlds::World& world, const std::string& command) {
   if (world.robots.empty()) return;
   throw BadInput(
-      fmt::format("{}: the world has {} robots, and {} is for worlds of one; seifbed run runs it, and "
-                  "the folder of each robot is a run of its own",
+      fmt::format("{}: the world has {} robots, and {} is for worlds of one. seifbed run runs it; the folder "
+                  "of each robot is then a run of its own",
                   world.name, world.robots.size(), command));
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,10 +36,18 @@ class TeamExchange {
   std::vector<ExchangeSummary> of_robot(std::size_t robot) const;
 
  private:
+  /// Estimators of one name, by robot. Null: this one has none that exchanges.
+  struct Channel {
+    std::string name;
+    std::vector<const LiveEstimator*> estimators;
+    Radio radio;
+  };
+  void add_channel(const std::string& name);
+
   Team& team_;
-  std::deque<HeardPackets> heard_;       // of all robots and estimators
-  std::map<std::string, Radio> radios_;  // by the name of the estimator
-  std::vector<Eigen::Vector2d> positions_;
+  std::deque<HeardPackets> heard_;  // of all robots and estimators
+  std::vector<Channel> channels_;
+  std::vector<Eigen::Vector2d> positions_;  // [m] of the robots; kept so that no exchange allocates
 };
 
 }  // namespace harness

@@ -1,5 +1,6 @@
 #include "seif/team/team_filter.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -10,8 +11,9 @@
 namespace seif {
 namespace {
 
-constexpr double beacon_period = 1.0;  // [s]
-constexpr int most_looked_at = 100;    // [-] waiting pieces in an update
+constexpr double beacon_period = 1.0;        // [s]
+constexpr int look_again_after = 5;          // [-] updates, if there was no place for any
+constexpr std::size_t most_looked_at = 100;  // [-] waiting pieces in an update
 
 }  // namespace
 
@@ -58,7 +60,8 @@ void TeamFilter::tell() {
 void TeamFilter::learn(double t) {
   int landmarks = 0;
   seif_.news()->begin();
-  for (int i = 0; i < most_looked_at && !waiting_.empty() && landmarks < options_.most_learnt; ++i) {
+  const std::size_t looks = std::min(most_looked_at, waiting_.size());
+  for (std::size_t i = 0; i < looks && landmarks < options_.most_learnt; ++i) {
     auto next = waiting_.upper_bound(looked_at_);
     if (next == waiting_.end()) next = waiting_.begin();
     looked_at_ = next->first;
@@ -67,9 +70,9 @@ void TeamFilter::learn(double t) {
     learn(next->first, next->second.bytes, t);
     waiting_.erase(next);
   }
-  if (landmarks == 0) return;
-  seif_.news()->finish();
-  deaf_updates_ = 0;
+  deaf_updates_ =
+      landmarks > 0 ? 0 : options_.listen_after - std::min(look_again_after, options_.listen_after);
+  if (landmarks > 0) seif_.news()->finish();
 }
 
 void TeamFilter::learn(const PieceName& name, std::span<const std::byte> bytes, double t) {

@@ -55,8 +55,8 @@ void TreeNews::add(const TeamPiece& piece) {
 /// The slot of a landmark of the piece, which joins the map if it is new.
 int TreeNews::join(const TeamPiece& piece, std::size_t i) {
   if (const auto slot = state_.find(piece.landmarks[i])) return *slot;
-  const int slot = state_.add_landmark(piece.landmarks[i], piece.references[i]);
-  state_.settle(slot);
+  constexpr bool is_settled = true;  // by its teller
+  const int slot = state_.add_landmark(piece.landmarks[i], piece.references[i], is_settled);
   tree_.join_anywhere(state_, slot, piece.references[i] + home_offset_);
   return slot;
 }

@@ -87,9 +87,17 @@ bool CondensationTree::freeze(const InformationState& state, const FrozenPiece& 
   if (plan_.is_running) {
     plan_.fresh.add(piece);
   } else {
-    elements_.add(piece, zone_);
+    add_to_elements(piece);
   }
   return zone_.eliminate(zone_indices_);
+}
+
+/// A piece of landmarks in the zone: all that is known of the places of others is old.
+void CondensationTree::add_to_elements(const FrozenPiece& piece) {
+  elements_.add(piece, [&](int slot) {
+    const int h = records_.landmark(slot).zone_index;
+    return h == none ? std::nullopt : std::optional(zone_.mean(h));
+  });
 }
 
 bool CondensationTree::solve_window(InformationState& state) {
@@ -134,7 +142,7 @@ bool CondensationTree::move_zone(InformationState& state) {
   read_zone(state);
   const bool done = switch_.move(state);
   zone_followed_at_ = ++epoch_;
-  for (const FrozenPiece& piece : plan_.fresh.all()) elements_.add(piece, zone_);
+  for (const FrozenPiece& piece : plan_.fresh.all()) add_to_elements(piece);
   plan_.fresh.clear();
   marking_.forget_changes();
   for (const int leaf : plan_.new_leaves) leaves_.attach(leaf);
@@ -145,17 +153,13 @@ bool CondensationTree::move_zone(InformationState& state) {
 // What others know.
 
 void CondensationTree::add_anywhere(const InformationState& state, const FrozenPiece& piece) {
-  const int owner = elements_.add_anywhere(piece, [&](int slot) { return mean(state, slot); });
-  if (owner == none) return;
-  marking_.note_news(owner);
-  for (const FrozenPiece::Member& m : piece.members) {
-    marking_.note_news(records_.landmark(m.slot).leaf);
-    news_.add(m.slot);
-  }
+  elements_.add(piece, [&](int slot) { return std::optional(mean(state, slot)); });
+  for (const FrozenPiece::Member& m : piece.members) news_.add(m.slot);
 }
 
 void CondensationTree::begin_news_plan(const InformationState& state) {
   news_.linearise([&](int slot) { return mean(state, slot); });
+  news_.for_each([&](int slot) { marking_.note_news(records_.landmark(slot).leaf); });
   plan_.hot_leaves = records_.hot_leaves;
   begin_plan(state, false);
   plan_.has_news = true;
@@ -167,9 +171,8 @@ void CondensationTree::repeat_news(const InformationState& state) {
   constexpr double most_sigmas = 3.0;  // of a sighting
   const double most = most_sigmas * state.first_estimates().sighting_sd();
   blocks_touched_ += static_cast<std::int64_t>(news_.size());
-  if (!news_.must_repeat(records_.turning(), most, [&](int slot) { return mean(state, slot); })) return;
-  news_.for_each([&](int slot) { marking_.note_news(records_.landmark(slot).leaf); });
-  begin_news_plan(state);
+  if (news_.must_repeat(records_.turning(), most, [&](int slot) { return mean(state, slot); }))
+    begin_news_plan(state);
 }
 
 bool CondensationTree::solve_all(InformationState& state) {

@@ -75,7 +75,6 @@ class CondensationTree {
   Eigen::Vector2d mean(const InformationState& state, int slot) const;
 
   // For landmarks in the zone, directly after solve_window():
-
   bool is_in_zone(int slot) const { return records_.landmark(slot).zone_index != none; }
   template <class Visit>
   void for_each_in_zone(Visit&& visit) const {
@@ -113,6 +112,7 @@ class CondensationTree {
   static constexpr int none = -1;
   void enter(const InformationState& state, int slot, int leaf, const Eigen::Vector2d& home);
   bool is_ready(int slot) const;
+  void add_to_elements(const FrozenPiece& piece);
   void begin_plan(const InformationState& state, bool of_all);
   [[nodiscard]] bool finish_plan(InformationState& state);
   [[nodiscard]] bool move_zone(InformationState& state);

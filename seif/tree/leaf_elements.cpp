@@ -2,14 +2,6 @@
 
 namespace seif {
 
-void LeafElements::add(const FrozenPiece& piece, const HotZone& zone) {
-  if (piece.members.empty()) return;
-  const int owner = owner_of(piece);
-  Condensed& element = records_.node(owner).own;
-  mover_.turn(motion_in(zone, element), element);
-  put(piece, owner);
-}
-
 /// To an element that is turned to where its landmarks are.
 void LeafElements::put(const FrozenPiece& piece, int owner) {
   Condensed& element = records_.node(owner).own;
@@ -63,29 +55,6 @@ int LeafElements::owner_of(const FrozenPiece& piece) {
     least = growth;
   }
   return best != none ? best : records_.held_leaf;
-}
-
-/// From where it is to where its landmarks in the zone are.
-BodyMotion LeafElements::motion_in(const HotZone& zone, const Condensed& element) {
-  begin_motion(element);
-  for (const Condensed::Member& m : element.boundary) {
-    if (const int h = records_.landmark(m.variable).zone_index; h != none) {
-      note_motion(m.variable, zone.mean(h));
-    } else {
-      next_reference_ += 2;
-    }
-  }
-  return boundary_.fit();
-}
-
-void LeafElements::begin_motion(const Condensed& element) {
-  boundary_.begin(records_.turning());
-  next_reference_ = element.reference.data();
-}
-
-void LeafElements::note_motion(int slot, const Eigen::Vector2d& now) {
-  boundary_.add(records_.moved_place(slot, next_reference_, now.data()));
-  next_reference_ += 2;
 }
 
 }  // namespace seif

@@ -72,6 +72,8 @@ void PlanMarking::mark_changed() {
 
 /// No group of a node above may begin or stay.
 void PlanMarking::mark_news() {
+  std::ranges::sort(news_);
+  news_.erase(std::ranges::unique(news_).begin(), news_.end());
   for (const int leaf : news_) {
     mark_stale(leaf);
     for (int n = leaf; n != none && records_.node(n).distance_known_in != plan_.number;

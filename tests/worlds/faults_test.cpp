@@ -170,10 +170,7 @@ TEST(Faults, WithAMistakeAreRefused) {
   const Folder folder;
   for (const auto& [text, message] : mistakes) {
     const LoadResult result = load_text(folder, text);
-    EXPECT_FALSE(result.world) << text;
-    EXPECT_NE(test::text_of(result.problems).find(message), std::string::npos)
-        << text << '\n'
-        << test::text_of(result.problems);
+    test::expect_refused(result, message, text);
   }
 }
 

@@ -134,11 +134,14 @@ TEST(Robots, ThatDoNotFitAreRefusedWhereTheyStand) {
   for (const auto& [override, message] : cases) {
     const Folder folder;
     const LoadResult result = load_text(folder, two_robots, {override});
-    EXPECT_FALSE(result.world) << override;
-    EXPECT_NE(test::text_of(result.problems).find(message), std::string::npos)
-        << override << '\n'
-        << test::text_of(result.problems);
+    test::expect_refused(result, message, override);
   }
+}
+
+TEST(Robots, AreThoseWhoHaveARadio) {
+  const Folder folder;
+  test::expect_refused(load_text(folder, "radio: {loss: 0.5}\n"), "'radio' is for 'robots'", "radio");
+  EXPECT_TRUE(load_text(folder, two_robots, {"radio.loss=0.5"}).world);
 }
 
 TEST(Robots, AreNamedByFaultsOfATeamOnly) {

@@ -80,6 +80,13 @@ inline std::string text_of(const std::vector<Problem>& problems) {
   return text;
 }
 
+/// One of the problems has this message. `what` was tried.
+inline void expect_refused(const LoadResult& result, const std::string& message, const std::string& what) {
+  EXPECT_FALSE(result.world) << what;
+  EXPECT_NE(text_of(result.problems).find(message), std::string::npos) << what << '\n'
+                                                                       << text_of(result.problems);
+}
+
 inline void expect_equal(const Film& a, const Film& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
