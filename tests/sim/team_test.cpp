@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "driver.hpp"
@@ -14,11 +13,7 @@ using Simulators = std::vector<std::unique_ptr<Simulator>>;
 
 worlds::World world_of(const std::vector<worlds::Placement>& starts) {
   worlds::World world;
-  for (const worlds::Placement& start : starts) {
-    worlds::TeamRobot& robot = world.robots.emplace_back();
-    robot.name = "r" + std::to_string(world.robots.size());
-    robot.start = start;
-  }
+  for (const worlds::Placement& start : starts) world.robots.emplace_back().start = start;
   return world;
 }
 
